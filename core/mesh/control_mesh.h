@@ -1,0 +1,89 @@
+#pragma once
+// The control mesh (cage) exactly as the caller gave it: points, faces, tags, primvars.
+// Field names and defaults are OpenUSD's UsdGeomMesh. Values are kept in double: every float is a double,
+// so nothing is lost, and the engines convert once.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/base/result.h"
+
+namespace subdivd {
+
+// What happens where the surface ends.  [USD interpolateBoundary]
+enum class BoundaryInterpolation {
+  none,             // faces that touch the border support the surface but are not output
+  edge_only,        // the border is a smooth curve; corners of the border are rounded
+  edge_and_corner,  // as edge_only, and a border vertex of a single face is pinned
+};
+
+// Which parts of a face-varying channel's border are linear instead of smooth.
+// [USD faceVaryingLinearInterpolation], from least to most linear.
+enum class FaceVaryingInterpolation { none, corners_only, corners_plus1, corners_plus2, boundaries, all };
+
+// How the sharpness of a semi-sharp crease decays along the levels.  [DeRose 98, section 4; RenderMan]
+enum class CreaseMethod { uniform, chaikin };
+
+// One value per: mesh (constant), base face (uniform), point and refined linearly (varying),
+// point and refined like positions (vertex), face corner (face_varying).
+enum class Interpolation { constant, uniform, varying, vertex, face_varying };
+
+struct Primvar {
+  std::string name;
+  Interpolation interpolation = Interpolation::vertex;
+  Index element_size = 1;       // scalars per value, 1..kMaxElementSize
+  std::vector<double> values;   // element_size scalars per value
+  std::vector<Index> indices;   // one per mesh / face / point / face corner; empty: 0, 1, 2, …
+};
+
+// Sharpness at or above this is infinite, as in OpenSubdiv; USD writes 1e38.
+inline constexpr double kInfiniteSharpness = 10.0;
+inline constexpr Index kMaxElementSize = 4096;
+
+// The faces [face_begin, face_end) as a renderer indexes them: seams of any attribute split a vertex. Only
+// connectivity: the refined render mesh says which refined vertices to copy (glTF primitives use it).
+struct RenderMesh {
+  Index face_begin = 0, face_end = 0;
+  Index vertex_count = 0;
+  std::vector<Index> indices;   // 3 per face, each < vertex_count
+};
+
+struct ControlMesh {
+  std::string name;
+  std::string subdivision_scheme = "loop";       // a name from core/schemes/all.h
+  std::vector<double> points;                    // x y z per point
+  std::vector<Index> face_vertex_counts;         // empty: all faces are triangles
+  std::vector<Index> face_vertex_indices;        // face after face; a face's vertices counter-clockwise
+  BoundaryInterpolation interpolate_boundary = BoundaryInterpolation::edge_and_corner;
+  FaceVaryingInterpolation face_varying_linear_interpolation = FaceVaryingInterpolation::corners_plus1;
+
+  // Creases are polylines of point indices, one after the other; crease_lengths[k] ≥ 2 points each.
+  // crease_sharpnesses holds one number per crease, or one per edge of every crease. An edge that several
+  // creases name takes the last sharpness given.
+  std::vector<Index> crease_indices;
+  std::vector<Index> crease_lengths;
+  std::vector<double> crease_sharpnesses;
+  std::vector<Index> corner_indices;             // points
+  std::vector<double> corner_sharpnesses;        // one per corner
+  std::vector<Index> hole_indices;               // faces that refine but are not output
+
+  std::vector<Primvar> primvars;
+  std::vector<RenderMesh> render_meshes;         // glTF only; face ranges must not overlap
+
+  Count point_count() const { return points.size() / 3; }
+  Count face_count() const {
+    return face_vertex_counts.empty() ? face_vertex_indices.size() / 3 : face_vertex_counts.size();
+  }
+
+  // Finds the first fault and says where it is (`where` uses the JSON field names, e.g.
+  // {"faceVertexIndices", 17}); empty when the mesh may be given to any function of this library.
+  // Everything OpenSubdiv's Far fails to check is checked here: indices against their arrays, counts against
+  // lengths, finiteness, creases along existing edges, tags given twice. Linear in the size of the mesh.
+  // Faces other than triangles are faults (call triangulate first), and so are faces that repeat a vertex
+  // (call drop_degenerate_faces first).
+  Result<void> check() const;
+};
+
+}  // namespace subdivd

@@ -1,0 +1,63 @@
+#pragma once
+// The result of refinement: flat arrays, and where on the control mesh every refined vertex lies.
+//
+// Numbering (DESIGN: closed form, n = 2^level): base vertices 0..V-1; then the n-1 points inside base edge e
+// at V + e(n-1) + (i-1); then the (n-1)(n-2)/2 points inside face f, row by row. See core/refine/split.h.
+
+#include <string>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/mesh/control_mesh.h"
+
+namespace subdivd {
+
+// A point of a base triangle (v0, v1, v2): v0 + u (v1 - v0) + v (v2 - v0), with u = i/n, v = j/n.
+struct Provenance {
+  Index face = kNoIndex;  // the lowest-numbered base face that holds the vertex; kNoIndex: unreferenced point
+  Index i = 0, j = 0;
+};
+
+template <class Real>
+struct RefinedPrimvar {
+  std::string name;
+  Interpolation interpolation = Interpolation::vertex;
+  Index element_size = 1;
+  std::vector<Real> values;    // element_size scalars per refined value
+  // face_varying: one index per corner of every output triangle. uniform: one value per output triangle,
+  // constant: one value, vertex and varying: one value per refined vertex; indices stay empty.
+  std::vector<Index> indices;
+};
+
+// A refined RenderMesh. Triangles appear in the order of RefinedMesh::triangles.
+struct RefinedRenderMesh {
+  Index vertex_count = 0;
+  Index triangle_begin = 0, triangle_end = 0;  // its range in RefinedMesh::triangles, counted in triangles
+  std::vector<Index> indices;                  // 3 per triangle, each < vertex_count
+  // For every render vertex one corner (3 * triangle + k, counted in RefinedMesh::triangles) whose position
+  // and face-varying values it copies; kNoIndex: no output triangle uses it, see source_vertex.
+  std::vector<Index> source_corner;
+};
+
+template <class Real>
+struct RefinedMesh {
+  std::string name;
+  Index level = 0;
+  std::vector<Real> points;              // x y z per refined vertex
+  std::vector<Index> triangles;          // 3 per output triangle; triangles of holes are left out
+  std::vector<Index> triangle_faces;     // base face of every output triangle
+  std::vector<Provenance> provenance;    // per refined vertex
+  std::vector<RefinedPrimvar<Real>> primvars;   // in the order of ControlMesh::primvars
+  std::vector<RefinedRenderMesh> render_meshes;
+
+  // Present on request (RefineOptions), otherwise empty; 3 per refined vertex.
+  std::vector<Real> limit_points;
+  std::vector<Real> normals;             // unit; (0,0,0) where the surface has none (see core/limit)
+};
+
+// Size of a refined level, known before anything is refined.
+struct LevelCounts {
+  Count vertices = 0, edges = 0, triangles = 0;  // triangles: holes included
+};
+
+}  // namespace subdivd
