@@ -20,7 +20,7 @@ class Budget {
 
   Budget() = default;  // unlimited
 
-  Count max_bytes = std::numeric_limits<Count>::max();   // of all output arrays of one answer together
+  Count max_bytes = std::numeric_limits<Count>::max();  // of all output arrays of one answer together
   Clock::time_point deadline = Clock::time_point::max();
   // Set by another thread when nobody waits for the answer any more; may be null. Must outlive the work.
   const std::atomic<bool>* cancelled = nullptr;

@@ -18,25 +18,25 @@ namespace subdivd {
 // The list of everything that can be wrong. Codes are public (they travel in answers): never rename one.
 enum class ErrorCode {
   // shape of the input
-  malformed,            // not JSON / GLB at all, truncated, bad UTF-8
-  missing_field,        // a required member is absent
-  unknown_field,        // a member, option or parameter that does not exist
-  duplicate_field,      // the same member twice
-  wrong_type,           // a string where a number must stand, …
-  out_of_range,         // a number outside its range; an index past its array
-  bad_enum,             // a word that is not in the list of valid words
-  wrong_length,         // array lengths that contradict each other
-  not_finite,           // NaN or infinity where a finite number must stand
+  malformed,        // not JSON / GLB at all, truncated, bad UTF-8
+  missing_field,    // a required member is absent
+  unknown_field,    // a member, option or parameter that does not exist
+  duplicate_field,  // the same member twice
+  wrong_type,       // a string where a number must stand, …
+  out_of_range,     // a number outside its range; an index past its array
+  bad_enum,         // a word that is not in the list of valid words
+  wrong_length,     // array lengths that contradict each other
+  not_finite,       // NaN or infinity where a finite number must stand
   // meaning of a mesh or a curve
-  not_a_triangle,       // Loop takes triangles only
-  not_an_edge,          // a crease runs between points that share no edge
-  duplicate_tag,        // a corner or hole is given twice
-  too_few_points,       // a curve with fewer points than its basis needs
-  unsupported,          // valid input that this version cannot process
+  not_a_triangle,  // Loop takes triangles only
+  not_an_edge,     // a crease runs between points that share no edge
+  duplicate_tag,   // a corner or hole is given twice
+  too_few_points,  // a curve with fewer points than its basis needs
+  unsupported,     // valid input that this version cannot process
   // limits
-  too_large,            // predicted size is over the allowed one
-  deadline_exceeded,    // the time budget ran out
-  cancelled,            // the caller went away
+  too_large,          // predicted size is over the allowed one
+  deadline_exceeded,  // the time budget ran out
+  cancelled,          // the caller went away
   // ours
   internal,
 };

@@ -33,13 +33,14 @@ enum class Interpolation { constant, uniform, varying, vertex, face_varying };
 struct Primvar {
   std::string name;
   Interpolation interpolation = Interpolation::vertex;
-  Index element_size = 1;       // scalars per value, 1..kMaxElementSize
-  std::vector<double> values;   // element_size scalars per value
-  std::vector<Index> indices;   // one per mesh / face / point / face corner; empty: 0, 1, 2, …
+  Index element_size = 1;      // scalars per value, 1..kMaxElementSize
+  std::vector<double> values;  // element_size scalars per value
+  std::vector<Index> indices;  // one per mesh / face / point / face corner; empty: 0, 1, 2, …
 };
 
-// Sharpness at or above this is infinite, as in OpenSubdiv; USD writes 1e38.
-inline constexpr double kInfiniteSharpness = 10.0;
+// Sharpness is single precision, as in USD and OpenSubdiv: its decay 2.3 -> 1.3 -> 0.3 rounds at every step,
+// so the type is part of the rule. At or above this it is infinite, as in OpenSubdiv; USD writes 1e38.
+inline constexpr float kInfiniteSharpness = 10.0f;
 inline constexpr Index kMaxElementSize = 4096;
 
 // The faces [face_begin, face_end) as a renderer indexes them: seams of any attribute split a vertex. Only
@@ -47,15 +48,15 @@ inline constexpr Index kMaxElementSize = 4096;
 struct RenderMesh {
   Index face_begin = 0, face_end = 0;
   Index vertex_count = 0;
-  std::vector<Index> indices;   // 3 per face, each < vertex_count
+  std::vector<Index> indices;  // 3 per face, each < vertex_count
 };
 
 struct ControlMesh {
   std::string name;
-  std::string subdivision_scheme = "loop";       // a name from core/schemes/all.h
-  std::vector<double> points;                    // x y z per point
-  std::vector<Index> face_vertex_counts;         // empty: all faces are triangles
-  std::vector<Index> face_vertex_indices;        // face after face; a face's vertices counter-clockwise
+  std::string subdivision_scheme = "loop";  // a name from core/schemes/all.h
+  std::vector<double> points;               // x y z per point
+  std::vector<Index> face_vertex_counts;    // empty: all faces are triangles
+  std::vector<Index> face_vertex_indices;   // face after face; a face's vertices counter-clockwise
   BoundaryInterpolation interpolate_boundary = BoundaryInterpolation::edge_and_corner;
   FaceVaryingInterpolation face_varying_linear_interpolation = FaceVaryingInterpolation::corners_plus1;
 
@@ -64,13 +65,13 @@ struct ControlMesh {
   // creases name takes the last sharpness given.
   std::vector<Index> crease_indices;
   std::vector<Index> crease_lengths;
-  std::vector<double> crease_sharpnesses;
-  std::vector<Index> corner_indices;             // points
-  std::vector<double> corner_sharpnesses;        // one per corner
-  std::vector<Index> hole_indices;               // faces that refine but are not output
+  std::vector<float> crease_sharpnesses;
+  std::vector<Index> corner_indices;      // points
+  std::vector<float> corner_sharpnesses;  // one per corner
+  std::vector<Index> hole_indices;        // faces that refine but are not output
 
   std::vector<Primvar> primvars;
-  std::vector<RenderMesh> render_meshes;         // glTF only; face ranges must not overlap
+  std::vector<RenderMesh> render_meshes;  // glTF only; face ranges must not overlap
 
   Count point_count() const { return points.size() / 3; }
   Count face_count() const {

@@ -23,7 +23,9 @@ struct RefinedPrimvar {
   std::string name;
   Interpolation interpolation = Interpolation::vertex;
   Index element_size = 1;
-  std::vector<Real> values;    // element_size scalars per refined value
+  std::vector<Real> values;  // element_size scalars per refined value
+  // With RefineOptions::limit, for vertex and face_varying: the limit of every value; otherwise empty.
+  std::vector<Real> limit_values;
   // face_varying: one index per corner of every output triangle. uniform: one value per output triangle,
   // constant: one value, vertex and varying: one value per refined vertex; indices stay empty.
   std::vector<Index> indices;
@@ -43,16 +45,18 @@ template <class Real>
 struct RefinedMesh {
   std::string name;
   Index level = 0;
-  std::vector<Real> points;              // x y z per refined vertex
-  std::vector<Index> triangles;          // 3 per output triangle; triangles of holes are left out
-  std::vector<Index> triangle_faces;     // base face of every output triangle
-  std::vector<Provenance> provenance;    // per refined vertex
-  std::vector<RefinedPrimvar<Real>> primvars;   // in the order of ControlMesh::primvars
+  std::vector<Real> points;                    // x y z per refined vertex
+  std::vector<Index> triangles;                // 3 per output triangle; triangles of holes are left out
+  std::vector<Index> triangle_faces;           // base face of every output triangle
+  std::vector<Provenance> provenance;          // per refined vertex
+  std::vector<RefinedPrimvar<Real>> primvars;  // in the order of ControlMesh::primvars
   std::vector<RefinedRenderMesh> render_meshes;
 
   // Present on request (RefineOptions), otherwise empty; 3 per refined vertex.
   std::vector<Real> limit_points;
-  std::vector<Real> normals;             // unit; (0,0,0) where the surface has none (see core/limit)
+  std::vector<Real> tangents_u,
+      tangents_v;             // span the tangent plane; tangents_u x tangents_v points outwards
+  std::vector<Real> normals;  // unit; (0,0,0) where the surface has none (see core/limit)
 };
 
 // Size of a refined level, known before anything is refined.

@@ -1,0 +1,58 @@
+#pragma once
+// The verdict of the comparison between our core and OpenSubdiv: plain data, no OpenSubdiv in sight.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/index.h"
+
+namespace subdivd::oracle {
+
+// Deviations of one quantity at one level. `relative` divides by the diagonal of the control points' bounding
+// box (positions, limits) or by the largest magnitude among the channel's control values (primvars, 1 when
+// all are 0); normals are angles in degrees, absolute and relative being the same.
+struct Deviation {
+  std::string quantity;  // "points", "limitPoints", "normals", "primvars/<name>", "primvars/<name>/limit"
+  double max_absolute = 0, rms_absolute = 0;
+  double max_relative = 0, rms_relative = 0;
+  double tolerance = 0;   // of max_relative
+  Count compared = 0;     // number of values compared
+  Count excepted = 0;     // values left out for a documented reason, named in `exception`
+  std::string exception;  // e.g. "corners of several faces have no common tangent plane"; empty when none
+  bool within_tolerance = true;
+  // Where the worst value is; kNoIndex when nothing was compared.
+  Index worst_vertex = kNoIndex, worst_face = kNoIndex;
+  double worst_u = 0, worst_v = 0;
+};
+
+struct LevelReport {
+  Index level = 0;
+  bool connectivity_identical = false;
+  Count vertices = 0, triangles = 0;
+  std::vector<Deviation> deviations;
+};
+
+struct MeshReport {
+  std::string name;
+  std::string precision;             // "single" or "double"
+  std::vector<LevelReport> levels;   // 1..level
+  bool passed = false;               // connectivity identical and every deviation within tolerance
+  std::vector<std::string> remarks;  // what could not be compared and why
+};
+
+struct CurveReport {
+  std::string name, precision;
+  std::vector<LevelReport> levels;  // quantity "points" and "limitPoints"
+  bool passed = false;
+  std::vector<std::string> remarks;  // e.g. "periodic curves: compared as a closed border"
+};
+
+struct Report {
+  std::string oracle;  // "OpenSubdiv 3.5.0 Far"
+  std::vector<MeshReport> meshes;
+  std::vector<CurveReport> curves;
+  bool passed = false;
+};
+
+}  // namespace subdivd::oracle

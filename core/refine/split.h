@@ -1,0 +1,45 @@
+#pragma once
+// Closed-form numbering of uniformly refined triangle meshes: n = 2^level segments per base edge.
+//
+// The grid of a base face (v0, v1, v2): point (i, j) = v0 + i/n (v1 - v0) + j/n (v2 - v0), i, j >= 0, i + j
+// <= n.
+//
+//            v2                     row j holds the points (0..n-j, j)
+//           /  \                    edge 0 = v0 v1 (j = 0), edge 1 = v1 v2 (i + j = n), edge 2 = v2 v0 (i =
+//           0)
+//         /      \                  upright triangle  (i,j) (i+1,j) (i,j+1)
+//       v0 ------ v1                inverted triangle (i+1,j) (i+1,j+1) (i,j+1)
+//
+// Vertices:  base vertex v: v;  k-th point inside base edge e (k = 1..n-1, counted from the edge's
+// lower-numbered end): V + e(n-1) + k-1;  inside face f: V + E(n-1) + f(n-1)(n-2)/2 + inner(i,j), row by row
+// from j = 1. Triangles: face f owns n^2 triangles starting at f n^2, row by row: upright (i,j) is number n^2
+// - (n-j)^2 + 2i, the inverted one right of it the next.
+
+#include "core/base/index.h"
+#include "core/refine/refined_mesh.h"
+
+namespace subdivd {
+
+inline constexpr Index kMaxLevel = 15;  // of any request; n = 32768 segments per edge
+
+struct GridPoint {
+  Index i = 0, j = 0;
+};
+
+inline constexpr Count segments(Index level) { return Count{1} << level; }
+inline constexpr Count inner_points(Count n) { return n < 3 ? 0 : (n - 1) * (n - 2) / 2; }
+// Number of inner point (i, j) of a face, 0-based: i, j >= 1 and i + j < n.
+inline constexpr Count inner_index(Count n, Count i, Count j) {
+  return (j - 1) * (n - 1) - j * (j - 1) / 2 + (i - 1);
+}
+inline constexpr Count upright_index(Count n, Count i, Count j) { return n * n - (n - j) * (n - j) + 2 * i; }
+
+// Counts of the refined mesh: V + E(n-1) + F(n-1)(n-2)/2 vertices, nE + 3F n(n-1)/2 edges, F n^2 triangles.
+// 64-bit results are exact for level <= kMaxLevel and counts below 2^32.
+inline constexpr LevelCounts refined_counts(Count vertices, Count edges, Count faces, Index level) {
+  const Count n = segments(level);
+  return {vertices + edges * (n - 1) + faces * inner_points(n), edges * n + faces * 3 * (n * (n - 1) / 2),
+          faces * n * n};
+}
+
+}  // namespace subdivd

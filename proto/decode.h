@@ -1,0 +1,43 @@
+#pragma once
+// The door of proto: bytes of a request in, a checked RefineRequest out; results in, bytes of the answer out.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto {
+
+// What the transport knows of the body's kind. `unspecified` (absent, octet-stream, curl's default form
+// type): "glTF" as the first four bytes is GLB; a JSON object with a member "asset" is glTF, otherwise it is
+// JSON.
+enum class BodyKind { unspecified, json, glb, gltf };
+
+using QueryParameters = std::vector<std::pair<std::string, std::string>>;
+
+// Reads and validates a whole request: body, then query parameters over its options. The body need not be
+// padded. Error::where is a path into the body, or {"?name"} for a query parameter (starts with '?').
+Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                    const Limits& limits);
+
+// Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for the JSON
+// text. Refuses what exceeds the limits (too_large with predicted and allowed).
+struct Prediction {
+  Count answer_bytes = 0;   // of the body that will be sent (upper bound)
+  Count working_bytes = 0;  // of the arrays of the core
+};
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits);
+
+// The whole answer in the request's answer_format. Consumes the answer: big arrays are moved into the
+// payload.
+Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer);
+
+// The report alone, as POST /v1/verify answers it: JSON whatever came in.
+Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,
+                              const Timings& timings);
+
+}  // namespace subdivd::proto

@@ -1,0 +1,28 @@
+#pragma once
+// The glTF 2.0 encoding of requests and answers.
+//
+// read: every triangle primitive of a glTF mesh together is one ControlMesh (points welded per options.weld;
+// its RenderMeshes are the primitives, in order; TEXCOORD_n and COLOR_n are face-varying primvars whose
+// values are welded per point when bit-identical); every line primitive is one ControlCurves. write: patches
+// the original document (materials, nodes, … kept), or makes a new one for a JSON request.
+
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto::gltf {
+
+// `options` are already known (weld is needed while reading); the request's options are set to them.
+Result<RefineRequest> read(std::string_view body, Format format, const Options& options,
+                           const Limits& limits);
+
+// Exact size of the BIN chunk plus an upper bound of the JSON chunk.
+Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes);
+
+// Format::glb or Format::gltf (embedded base64). `envelope` is a JSON object for asset.extras.subdivd.
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,
+                      std::string_view envelope);
+
+}  // namespace subdivd::proto::gltf

@@ -1,0 +1,125 @@
+#pragma once
+// Requests and answers as they travel, in terms of core types. What may be left out, its default and its unit
+// stand in the table of proto/options; the JSON spelling in proto/json, the glTF mapping in proto/gltf.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/curves/cubic.h"
+#include "core/mesh/control_mesh.h"
+#include "core/oracle/report.h"
+#include "core/refine/refine.h"
+#include "core/refine/refined_mesh.h"
+
+namespace subdivd::proto {
+
+enum class Format { json, glb, gltf };
+enum class Precision { single_precision, double_precision };  // "single", "double" on the wire
+enum class Weld {
+  exact,  // glTF vertices of one mesh with bit-identical positions are one point for connectivity (-0 == +0)
+  none,   // the input's indices are the connectivity
+};
+
+// Limits of one request, from the server's configuration.
+struct Limits {
+  Index max_level = 8;
+  Count max_output_bytes = Count{1} << 30;
+  Count max_body_bytes = Count{256} << 20;
+  Index max_json_depth = 64;
+};
+
+// What the request asked for; absent optionals follow the body (interpolateBoundary, …) or the input
+// (format).
+struct Options {
+  Index level = 2;
+  bool limit = false;
+  bool normals = false;
+  bool verify = false;
+  bool triangulate = false;
+  LoopWeights loop_weights = LoopWeights::loop;
+  CreaseMethod crease_method = CreaseMethod::uniform;
+  Weld weld = Weld::exact;
+  std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body
+  std::optional<FaceVaryingInterpolation> face_varying_linear_interpolation;
+  std::optional<Precision> precision;  // default: double for JSON answers, single for glTF answers
+  std::optional<Format> format;        // default: the kind that came in
+};
+
+// How arrays of tuples were written in the JSON body; the answer follows.
+enum class ArrayForm { nested, flat };
+
+struct JsonMeshForm {
+  ArrayForm points = ArrayForm::nested;
+  std::vector<ArrayForm> primvars;  // in the order of ControlMesh::primvars
+};
+
+namespace gltf {
+class Source;  // the original document and its buffers, for patching (proto/gltf/source.h)
+}
+
+struct RefineRequest {
+  Format input = Format::json;
+  Options options;
+  std::vector<ControlMesh> meshes;  // checked: check() has passed
+  std::vector<ControlCurves> curves;
+  // For every mesh the face of the input that each face came from, when faces were dropped or triangulated
+  // (otherwise empty: they are the input's faces).
+  std::vector<std::vector<Index>> face_origins;
+  std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
+  // JSON only
+  bool single_mesh_at_top = false;
+  std::vector<JsonMeshForm> mesh_forms;
+  std::vector<ArrayForm> curve_forms;
+  // glTF only: meshes and curves of this request belong to source in the order it knows
+  std::shared_ptr<const gltf::Source> source;
+};
+
+// Milliseconds by phase, as far as they are known when the answer is written.
+struct Timings {
+  double read = 0, refine = 0, verify = 0;
+};
+
+template <class Real>
+struct RefineAnswer {
+  std::vector<RefinedMesh<Real>> meshes;  // in the order of the request
+  std::vector<RefinedCurves<Real>> curves;
+  std::optional<oracle::Report> verification;
+  Timings timings;
+};
+using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
+
+// Effective values of what Options leaves open.
+Format answer_format(const RefineRequest& request);
+Precision answer_precision(const RefineRequest& request);
+
+// A piece of an answer's body: bytes and whatever keeps them alive.
+struct Chunk {
+  std::shared_ptr<const void> owner;
+  std::span<const std::byte> bytes;
+
+  static Chunk own(std::string text);
+  template <class T>
+  static Chunk own(std::vector<T> values) {
+    auto kept = std::make_shared<const std::vector<T>>(std::move(values));
+    return {kept, std::as_bytes(std::span(*kept))};
+  }
+};
+
+struct Payload {
+  std::string content_type;   // application/json, model/gltf-binary, model/gltf+json
+  std::vector<Chunk> chunks;  // sent one after the other
+  Count size() const {
+    Count total = 0;
+    for (const Chunk& chunk : chunks) total += chunk.bytes.size();
+    return total;
+  }
+};
+
+}  // namespace subdivd::proto
