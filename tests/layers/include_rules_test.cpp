@@ -1,0 +1,151 @@
+#include "tests/layers/include_rules.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace subdivd::layers {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+// A little source tree of its own for each test, with the headers that the planted includes name.
+class IncludeRules : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::path(SUBDIVD_BINARY_DIR) / "planted_includes" / test->name();
+    fs::remove_all(root_);
+    for (const char* header :
+         {"core/base/result.h", "core/mesh/topology.h", "core/refine/plain.h", "core/limit/limit.h",
+          "core/curves/bspline.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
+          "server/config.h", "server/transport/transport.h"})
+      write(header, "#pragma once");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write(const std::string& file, const std::string& line) {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << "// planted\n" << line << "\n";
+  }
+
+  // What is found when `file` holds nothing but `line`, as its second line.
+  std::vector<Violation> planted(const std::string& file, const std::string& line) {
+    write(file, line);
+    return check_includes(root_);
+  }
+
+  fs::path root_;
+};
+
+auto one_at(const std::string& file, const std::string& what) {
+  return ElementsAre(AllOf(Field(&Violation::file, file), Field(&Violation::line, 2),
+                           Field(&Violation::what, HasSubstr(what))));
+}
+
+TEST(ThisTree, draws_only_the_arrows_of_the_design) {
+  for (const Violation& v : check_includes(SUBDIVD_SOURCE_DIR))
+    ADD_FAILURE() << v.file << ":" << v.line << ": " << v.what;
+}
+
+TEST_F(IncludeRules, accepts_a_tree_without_strays) { EXPECT_THAT(check_includes(root_), IsEmpty()); }
+
+TEST_F(IncludeRules, accepts_an_arrow_that_is_drawn) {
+  EXPECT_THAT(planted("core/limit/a.cpp", "#include \"core/refine/plain.h\""), IsEmpty());
+}
+
+TEST_F(IncludeRules, rejects_core_including_proto) {
+  EXPECT_THAT(planted("core/mesh/a.h", "#include \"proto/wire.h\""), one_at("core/mesh/a.h", "proto/wire.h"));
+}
+
+TEST_F(IncludeRules, rejects_mesh_including_refine) {
+  EXPECT_THAT(planted("core/mesh/a.h", "#include \"core/refine/plain.h\""),
+              one_at("core/mesh/a.h", "core/refine/plain.h"));
+}
+
+TEST_F(IncludeRules, rejects_curves_including_mesh) {
+  EXPECT_THAT(planted("core/curves/a.cpp", "#include \"core/mesh/topology.h\""),
+              one_at("core/curves/a.cpp", "core/mesh"));
+}
+
+TEST_F(IncludeRules, rejects_core_including_the_oracle) {
+  EXPECT_THAT(planted("core/limit/a.cpp", "#include \"core/oracle/report.h\""),
+              one_at("core/limit/a.cpp", "core/oracle"));
+}
+
+TEST_F(IncludeRules, rejects_proto_including_server) {
+  EXPECT_THAT(planted("proto/json/a.cpp", "#include \"server/config.h\""),
+              one_at("proto/json/a.cpp", "server/config.h"));
+}
+
+TEST_F(IncludeRules, accepts_proto_including_the_report) {
+  EXPECT_THAT(planted("proto/a.cpp", "#include \"core/oracle/report.h\""), IsEmpty());
+}
+
+TEST_F(IncludeRules, rejects_proto_including_the_rest_of_the_oracle) {
+  EXPECT_THAT(planted("proto/a.cpp", "#include \"core/oracle/far.h\""),
+              one_at("proto/a.cpp", "core/oracle/far.h"));
+}
+
+TEST_F(IncludeRules, accepts_opensubdiv_in_the_oracle) {
+  EXPECT_THAT(planted("core/oracle/a.cpp", "#include <opensubdiv/far/primvarRefiner.h>"), IsEmpty());
+}
+
+TEST_F(IncludeRules, rejects_opensubdiv_in_server) {
+  EXPECT_THAT(planted("server/a.cpp", "#include <opensubdiv/far/error.h>"),
+              one_at("server/a.cpp", "opensubdiv"));
+}
+
+TEST_F(IncludeRules, rejects_a_system_header_in_core) {
+  EXPECT_THAT(planted("core/base/a.cpp", "#include <unistd.h>"), one_at("core/base/a.cpp", "unistd.h"));
+}
+
+TEST_F(IncludeRules, rejects_json_in_server) {
+  EXPECT_THAT(planted("server/a.cpp", "#include <nlohmann/json.hpp>"), one_at("server/a.cpp", "nlohmann"));
+}
+
+TEST_F(IncludeRules, rejects_httplib_outside_transport) {
+  EXPECT_THAT(planted("server/handlers/a.cpp", "#include <httplib.h>"),
+              one_at("server/handlers/a.cpp", "httplib.h"));
+}
+
+TEST_F(IncludeRules, accepts_httplib_in_transport) {
+  EXPECT_THAT(planted("server/transport/a.cpp", "#include <httplib.h>"), IsEmpty());
+}
+
+TEST_F(IncludeRules, rejects_a_path_that_does_not_start_at_the_root) {
+  EXPECT_THAT(planted("core/base/a.cpp", "#include \"result.h\""),
+              one_at("core/base/a.cpp", "no file counted from the root"));
+}
+
+TEST_F(IncludeRules, rejects_a_way_around_through_parents) {
+  EXPECT_THAT(planted("core/mesh/a.cpp", "#include \"core/mesh/../../proto/wire.h\""),
+              one_at("core/mesh/a.cpp", ".."));
+}
+
+TEST_F(IncludeRules, rejects_an_include_behind_a_macro) {
+  EXPECT_THAT(planted("core/base/a.cpp", "#include HEADER"), one_at("core/base/a.cpp", "plain words"));
+}
+
+TEST_F(IncludeRules, sees_through_unusual_spacing) {
+  EXPECT_THAT(planted("core/base/a.cpp", "  #  include\t<opensubdiv/version.h>  // why"),
+              one_at("core/base/a.cpp", "opensubdiv"));
+}
+
+TEST_F(IncludeRules, rejects_a_folder_outside_the_design) {
+  write("core/helpers/a.h", "#pragma once");
+  EXPECT_THAT(check_includes(root_), ElementsAre(Field(&Violation::file, "core/helpers/a.h")));
+}
+
+}  // namespace
+}  // namespace subdivd::layers
