@@ -25,6 +25,10 @@ struct ControlCurves {
   CurveWrap wrap = CurveWrap::pinned;
 
   Count point_count() const { return width == 0 ? 0 : points.size() / width; }
+  Count curve_count() const { return vertex_counts.empty() ? 1 : vertex_counts.size(); }
+  Count points_of_curve(Count curve) const {
+    return vertex_counts.empty() ? point_count() : vertex_counts[curve];
+  }
   // First fault and its place (JSON names: points, curveVertexCounts). Needs per curve: pinned >= 2,
   // periodic >= 3, nonperiodic >= 4 points (a cubic segment has four).
   Result<void> check() const;

@@ -1,0 +1,99 @@
+#include "core/curves/control_curve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/core/curves/sample_curves.h"
+
+namespace subdivd::testing {
+namespace {
+
+ErrorCode code_of(const ControlCurves& curves) {
+  const auto checked = curves.check();
+  return checked ? ErrorCode::internal : checked.error().code;
+}
+
+TEST(ControlCurve, accepts_the_fewest_points_of_every_wrap) {
+  for (const CurveWrap wrap : kAllWraps)
+    EXPECT_TRUE(random_curve(wrap, fewest_points(wrap)).check().ok()) << int(wrap);
+}
+
+TEST(ControlCurve, rejects_one_point_fewer_than_a_wrap_needs) {
+  for (const CurveWrap wrap : kAllWraps)
+    EXPECT_EQ(code_of(random_curve(wrap, fewest_points(wrap) - 1)), ErrorCode::too_few_points) << int(wrap);
+}
+
+TEST(ControlCurve, rejects_an_empty_curve) { EXPECT_EQ(code_of(ControlCurves{}), ErrorCode::too_few_points); }
+
+TEST(ControlCurve, accepts_counts_that_sum_to_the_points) {
+  auto curves = random_curve(CurveWrap::pinned, 7);
+  curves.vertex_counts = {2, 5};
+  EXPECT_TRUE(curves.check().ok());
+}
+
+TEST(ControlCurve, rejects_counts_that_sum_to_fewer_than_the_points) {
+  auto curves = random_curve(CurveWrap::pinned, 7);
+  curves.vertex_counts = {2, 4};
+  EXPECT_EQ(code_of(curves), ErrorCode::wrong_length);
+}
+
+TEST(ControlCurve, rejects_counts_that_sum_to_more_than_the_points) {
+  auto curves = random_curve(CurveWrap::pinned, 7);
+  curves.vertex_counts = {2, 6};
+  EXPECT_EQ(code_of(curves), ErrorCode::wrong_length);
+}
+
+// 2^32 - 1 + 8 is 7 again in 32 bits: an attacker's way past the sum.
+TEST(ControlCurve, rejects_counts_whose_32_bit_sum_wraps_around_to_the_points) {
+  auto curves = random_curve(CurveWrap::pinned, 7);
+  curves.vertex_counts = {kNoIndex, 8};
+  EXPECT_EQ(code_of(curves), ErrorCode::wrong_length);
+}
+
+TEST(ControlCurve, names_the_short_curve_among_several) {
+  auto curves = random_curve(CurveWrap::pinned, 7);
+  curves.vertex_counts = {6, 1};
+  const auto checked = curves.check();
+  ASSERT_FALSE(checked.ok());
+  EXPECT_EQ(checked.error().code, ErrorCode::too_few_points);
+  EXPECT_EQ(checked.error().where, (Path{std::string("curveVertexCounts"), std::uint64_t{1}}));
+}
+
+TEST(ControlCurve, rejects_width_zero) {
+  auto curves = random_curve(CurveWrap::pinned, 4);
+  curves.width = 0;
+  EXPECT_EQ(code_of(curves), ErrorCode::out_of_range);
+}
+
+TEST(ControlCurve, rejects_a_width_over_the_maximum) {
+  ControlCurves curves;
+  curves.width = kMaxCurveWidth + 1;
+  curves.points.resize(2 * curves.width);
+  EXPECT_EQ(code_of(curves), ErrorCode::out_of_range);
+}
+
+TEST(ControlCurve, rejects_numbers_that_do_not_make_whole_points) {
+  auto curves = random_curve(CurveWrap::pinned, 4);
+  curves.points.pop_back();
+  EXPECT_EQ(code_of(curves), ErrorCode::wrong_length);
+}
+
+TEST(ControlCurve, names_the_point_that_is_not_a_number) {
+  auto curves = random_curve(CurveWrap::pinned, 4);
+  curves.points[7] = std::nan("");
+  const auto checked = curves.check();
+  ASSERT_FALSE(checked.ok());
+  EXPECT_EQ(checked.error().code, ErrorCode::not_finite);
+  EXPECT_EQ(checked.error().where, (Path{std::string("points"), std::uint64_t{2}}));
+}
+
+TEST(ControlCurve, rejects_infinity) {
+  auto curves = random_curve(CurveWrap::pinned, 4);
+  curves.points[0] = -std::numeric_limits<double>::infinity();
+  EXPECT_EQ(code_of(curves), ErrorCode::not_finite);
+}
+
+}  // namespace
+}  // namespace subdivd::testing
