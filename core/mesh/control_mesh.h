@@ -83,7 +83,8 @@ struct ControlMesh {
   // Everything OpenSubdiv's Far fails to check is checked here: indices against their arrays, counts against
   // lengths, finiteness, creases along existing edges, tags given twice. Linear in the size of the mesh.
   // Faces other than triangles are faults (call triangulate first), and so are faces that repeat a vertex
-  // (call drop_degenerate_faces first).
+  // (call drop_degenerate_faces first). subdivision_scheme is refine()'s to judge: masks live above this
+  // folder.
   Result<void> check() const;
 };
 

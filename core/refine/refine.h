@@ -6,13 +6,12 @@
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
+#include "core/mesh/repair.h"
 #include "core/refine/refined_mesh.h"
 #include "core/refine/split.h"
+#include "core/schemes/loop.h"
 
 namespace subdivd {
-
-// beta(n) of the smooth vertex point. The two agree at valences 3 and 6 only.
-enum class LoopWeights { loop, warren };
 
 struct RefineOptions {
   Index level = 2;  // 0..kMaxLevel
@@ -34,21 +33,10 @@ struct RefinedSize {
 template <class Real>
 Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& options);
 
-// `mesh` must have passed check(). Fails only for sizes (too_large, against budget.max_bytes as predicted) or
-// when the budget is polled dry. The answer depends on the arguments alone, to the bit.
-// Instantiated for float and double.
+// `mesh` must have passed check(). Fails for an unknown scheme, for values too large for Real, for sizes
+// (too_large, against budget.max_bytes as predicted) and when the budget is polled dry. The answer depends on
+// the arguments alone, to the bit. Instantiated for float and double.
 template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);
-
-// --- Preparing what check() would refuse -----------------------------------------------------------------
-
-// Both return, for every face of the new mesh, the face of the old one that it came from.
-// drop_degenerate_faces: removes faces that repeat a vertex (they have no inside), with their face-varying
-// indices, uniform values and holes. Creases along vanished edges vanish.
-// triangulate: splits every face of k > 3 vertices into the fan (0,1,2), (0,2,3), … from its first vertex;
-// uniform values, face-varying indices and holes follow; refuses faces of fewer than 3 vertices.
-// Both trust array lengths no more than check() does and fail with the same errors.
-Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh);
-Result<std::vector<Index>> triangulate(ControlMesh& mesh);
 
 }  // namespace subdivd

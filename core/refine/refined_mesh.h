@@ -37,7 +37,7 @@ struct RefinedRenderMesh {
   Index triangle_begin = 0, triangle_end = 0;  // its range in RefinedMesh::triangles, counted in triangles
   std::vector<Index> indices;                  // 3 per triangle, each < vertex_count
   // For every render vertex one corner (3 * triangle + k, counted in RefinedMesh::triangles) whose position
-  // and face-varying values it copies; kNoIndex: no output triangle uses it, see source_vertex.
+  // and face-varying values it copies; kNoIndex: no output triangle uses it (inside a hole).
   std::vector<Index> source_corner;
 };
 

@@ -1,0 +1,334 @@
+#include "core/limit/limit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/schemes/loop.h"
+
+namespace subdivd {
+namespace {
+
+template <class Real>
+void cross(const Real a[3], const Real b[3], Real out[3]) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+template <class Real>
+Real dot(const Real a[3], const Real b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Real>
+bool is_zero(const Real a[3]) {
+  return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+
+// Normal of the plane of two unit vectors; false when they are parallel as far as the type can tell.
+template <class Real>
+bool plane_normal(const Real u[3], const Real v[3], Real normal[3]) {
+  cross(u, v, normal);
+  const Real sine = std::sqrt(dot(normal, normal));
+  if (!(sine > 16 * std::numeric_limits<Real>::epsilon())) return false;
+  normalize(normal);
+  return true;
+}
+
+}  // namespace
+
+template <class Real>
+void normalize(Real vector[3]) {
+  const Real largest = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
+  if (largest == 0) return;
+  for (int k = 0; k < 3; ++k) vector[k] /= largest;
+  const Real length = std::sqrt(dot(vector, vector));
+  for (int k = 0; k < 3; ++k) vector[k] /= length;
+}
+
+template <class Real>
+void mean_normal(std::span<const Frame<Real>> frames, Real out[3]) {
+  out[0] = out[1] = out[2] = 0;
+  if (frames.size() == 1) {
+    std::copy_n(frames[0].normal, 3, out);
+    return;
+  }
+  for (const Frame<Real>& frame : frames)
+    for (int k = 0; k < 3; ++k) out[k] += frame.normal[k];
+  // Opposite sides cancel up to rounding: no direction is better than a random one.
+  if (std::sqrt(dot(out, out)) <=
+      16 * std::numeric_limits<Real>::epsilon() * static_cast<Real>(frames.size()))
+    out[0] = out[1] = out[2] = 0;
+  normalize(out);
+}
+
+template <class Scheme, class Real>
+LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, const Topology& topology,
+                                   const Sharpness& sharpness, Index v, std::span<const Real> values,
+                                   Index width)
+    : scheme_(scheme), method_(method), width_(width) {
+  gather(topology, sharpness, v, values);
+  gather_sectors(topology, v);
+  while (!settled()) step();
+}
+
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::gather(const Topology& topology, const Sharpness& sharpness, Index v,
+                                     std::span<const Real> values) {
+  auto append = [&](std::vector<Real>& to, Index vertex) {
+    const auto at = values.subspan(std::size_t{vertex} * width_, width_);
+    to.insert(to.end(), at.begin(), at.end());
+  };
+  append(center_, v);
+  vertex_sharpness_ = sharpness.vertices[v];
+  std::vector<float> around, child;
+  for (Index e : topology.vertex_edges(v)) {
+    const Index end = topology.other_end(e, v);
+    append(neighbors_, end);
+    edge_sharpness_.push_back(sharpness.edges[e]);
+    if (method_ == CreaseMethod::uniform || !is_semi_sharp(sharpness.edges[e])) {
+      far_child_.push_back(decay(sharpness.edges[e]));
+      continue;
+    }
+    const auto end_edges = topology.vertex_edges(end);
+    around.clear();
+    for (Index other : end_edges) around.push_back(sharpness.edges[other]);
+    child.resize(around.size());
+    decay_around_vertex(method_, around, child);
+    far_child_.push_back(
+        child[static_cast<std::size_t>(std::ranges::lower_bound(end_edges, e) - end_edges.begin())]);
+  }
+}
+
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::gather_sectors(const Topology& topology, Index v) {
+  const auto edges = topology.vertex_edges(v);
+  auto position = [&](Index h) {  // of the edge of half-edge h in the ring
+    const Index e = topology.half_edge_edge(h);
+    return static_cast<Index>(std::ranges::lower_bound(edges, e) - edges.begin());
+  };
+  for (Index h : topology.vertex_corners(v)) wedges_.push_back({position(h), position(Topology::prev(h))});
+  auto passable = [&](Index e) {
+    return !is_infinite(
+        edge_sharpness_[static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin())]);
+  };
+  for (const Topology::Fan& fan : topology.fans(v, passable)) {
+    Sector sector{{}, fan.closed};
+    for (Index h : fan.corners) sector.edges.push_back(position(h));
+    if (!fan.closed) sector.edges.push_back(position(Topology::prev(fan.corners.back())));
+    sectors_.push_back(std::move(sector));
+  }
+}
+
+template <class Scheme, class Real>
+bool LimitRing<Scheme, Real>::settled() const {
+  return !is_semi_sharp(vertex_sharpness_) && std::ranges::none_of(edge_sharpness_, is_semi_sharp);
+}
+
+// One level of refinement of the ring: its own values from its own values.
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::step() {
+  const std::size_t n = edge_sharpness_.size();
+  std::vector<float> near_child(n);
+  decay_around_vertex(method_, edge_sharpness_, near_child);
+  std::vector<Index> face_counts(n, 0);
+  std::vector<Real> opposite(neighbors_.size(), Real(0));
+  for (const Wedge& wedge : wedges_)
+    for (auto [edge, across] : {std::pair{wedge.from, wedge.to}, std::pair{wedge.to, wedge.from}}) {
+      ++face_counts[edge];
+      for (Index c = 0; c < width_; ++c)
+        opposite[std::size_t{edge} * width_ + c] += neighbors_[std::size_t{across} * width_ + c];
+    }
+  const float child_sharpness = decay(vertex_sharpness_);
+  const VertexMask vertex =
+      scheme_.vertex_mask({static_cast<Index>(wedges_.size()), method_, vertex_sharpness_, child_sharpness,
+                           edge_sharpness_, near_child});
+  std::vector<Real> center(width_);
+  for (Index c = 0; c < width_; ++c) {
+    Real sum = static_cast<Real>(vertex.self) * center_[c];
+    for (std::size_t k = 0; k < n; ++k) sum += static_cast<Real>(vertex.each) * neighbors_[k * width_ + c];
+    for (Index end : vertex.crease_ends)
+      sum += static_cast<Real>(vertex.crease) * neighbors_[std::size_t{end} * width_ + c];
+    center[c] = sum;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const EdgeMask edge =
+        scheme_.edge_mask({face_counts[k], edge_sharpness_[k], {near_child[k], far_child_[k]}});
+    // The far half's other half comes to stand beside the new ring: its sharpness decides, under Chaikin's
+    // rule, how the new edge decays at its far end.
+    const std::array<float, 2> halves{near_child[k], far_child_[k]};
+    std::array<float, 2> next{};
+    decay_around_vertex(method_, halves, next);
+    far_child_[k] = next[0];
+    for (Index c = 0; c < width_; ++c) {
+      Real& value = neighbors_[k * width_ + c];
+      value = static_cast<Real>(edge.end) * (center_[c] + value) +
+              static_cast<Real>(edge.opposite) * opposite[k * width_ + c];
+    }
+  }
+  center_ = std::move(center);
+  edge_sharpness_ = std::move(near_child);
+  vertex_sharpness_ = child_sharpness;
+}
+
+template <class Scheme, class Real>
+Rule LimitRing<Scheme, Real>::rule() const {
+  return wedges_.empty() ? Rule::corner : rule_of(vertex_sharpness_, edge_sharpness_);
+}
+
+// The ring's edges in cyclic order from the crease on.
+template <class Scheme, class Real>
+std::vector<Index> LimitRing<Scheme, Real>::dart_order() const {
+  std::vector<Index> order = sectors_[0].edges;
+  order.pop_back();  // the crease again
+  return order;
+}
+
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::apply(const RingMask& mask, std::span<const Index> order, Real* out) const {
+  for (Index c = 0; c < width_; ++c) {
+    Real sum = static_cast<Real>(mask.self) * center_[c];
+    for (std::size_t k = 0; k < mask.edges.size(); ++k)
+      sum += static_cast<Real>(mask.edges[k]) * neighbors_[std::size_t{order[k]} * width_ + c];
+    out[c] = sum;
+  }
+}
+
+// A tangent mask's weights sum to 0: applied to differences it loses nothing far from the origin.
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<const Index> order, Real out[3]) const {
+  for (std::size_t c = 0; c < 3; ++c) {
+    Real sum = 0;
+    for (std::size_t k = 0; k < mask.edges.size(); ++k)
+      sum += static_cast<Real>(mask.edges[k]) * (neighbors_[std::size_t{order[k]} * 3 + c] - center_[c]);
+    out[c] = sum;
+  }
+}
+
+template <class Scheme, class Real>
+std::vector<Real> LimitRing<Scheme, Real>::position() const {
+  std::vector<Real> out(center_);
+  VertexMask mask;
+  switch (rule()) {
+    case Rule::corner:
+      return out;
+    case Rule::dart: {
+      const std::vector<Index> order = dart_order();
+      apply(scheme_.dart_limit_mask(static_cast<Index>(order.size())), order, out.data());
+      return out;
+    }
+    case Rule::smooth:
+      mask = scheme_.smooth_limit_mask(static_cast<Index>(wedges_.size()));
+      break;
+    case Rule::crease: {
+      const auto first = std::ranges::find_if(edge_sharpness_, is_sharp);
+      const auto second = std::find_if(first + 1, edge_sharpness_.end(), is_sharp);
+      mask = scheme_.crease_limit_mask(static_cast<Index>(first - edge_sharpness_.begin()),
+                                       static_cast<Index>(second - edge_sharpness_.begin()));
+    }
+  }
+  for (Index c = 0; c < width_; ++c) {
+    Real sum = static_cast<Real>(mask.self) * center_[c];
+    if (mask.each != 0)
+      for (std::size_t k = 0; k < edge_sharpness_.size(); ++k)
+        sum += static_cast<Real>(mask.each) * neighbors_[k * width_ + c];
+    if (mask.crease != 0)
+      for (Index end : mask.crease_ends)
+        sum += static_cast<Real>(mask.crease) * neighbors_[std::size_t{end} * width_ + c];
+    out[c] = sum;
+  }
+  return out;
+}
+
+template <class Scheme, class Real>
+Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
+  Frame<Real> frame;
+  auto spoke = [&](Index edge, Real scale, Real out[3]) {
+    for (int c = 0; c < 3; ++c) out[c] = (neighbors_[std::size_t{edge} * 3 + c] - center_[c]) * scale;
+  };
+  Real largest = 0;
+  for (Index edge : sector.edges) {
+    Real along[3];
+    spoke(edge, 1, along);
+    for (Real x : along) largest = std::max(largest, std::abs(x));
+  }
+  if (largest == 0) return frame;
+  const std::size_t n = sector.edges.size();
+  for (std::size_t k = 0; k + 1 < n + (sector.closed ? 1 : 0); ++k) {
+    Real a[3], b[3], area[3];
+    spoke(sector.edges[k], 1 / largest, a);
+    spoke(sector.edges[(k + 1) % n], 1 / largest, b);
+    cross(a, b, area);
+    for (int c = 0; c < 3; ++c) frame.normal[c] += area[c];
+  }
+  if (is_zero(frame.normal)) return frame;
+  normalize(frame.normal);
+  // Any pair that spans the plane: start from the axis that is least along the normal.
+  Real axis[3] = {0, 0, 0};
+  int least = 0;
+  for (int c = 1; c < 3; ++c)
+    if (std::abs(frame.normal[c]) < std::abs(frame.normal[least])) least = c;
+  axis[least] = 1;
+  cross(axis, frame.normal, frame.u);
+  normalize(frame.u);
+  cross(frame.normal, frame.u, frame.v);
+  return frame;
+}
+
+template <class Scheme, class Real>
+Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
+  Frame<Real> frame;
+  const Rule rule = this->rule();
+  const auto faces = static_cast<Index>(sector.edges.size() - (sector.closed ? 0 : 1));
+  const bool returns = !sector.closed && sector.edges.front() == sector.edges.back();
+  const Frame<Real> mean = mean_frame(sector);
+  if (sector.closed) {
+    apply_to_spokes(scheme_.smooth_tangent_u(faces), sector.edges, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces), sector.edges, frame.v);
+  } else if (rule == Rule::dart) {
+    const std::vector<Index> order = dart_order();
+    apply_to_spokes(scheme_.dart_tangent_u(faces), order, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces), order, frame.v);
+  } else if (rule == Rule::crease && !returns) {
+    const Index ends[2] = {sector.edges.front(), sector.edges.back()};
+    apply_to_spokes({0, {1, -1}}, ends, frame.u);
+    apply_to_spokes(scheme_.crease_tangent_across(faces), sector.edges, frame.v);
+  } else if (rule == Rule::corner && faces <= 2 && !returns) {
+    const Index ends[2] = {sector.edges.front(), sector.edges.back()};
+    apply_to_spokes({-1, {1, 0}}, ends, frame.u);
+    apply_to_spokes({-1, {0, 1}}, ends, frame.v);
+  } else {
+    return mean;
+  }
+  Real unit_u[3], unit_v[3];
+  std::copy_n(frame.u, 3, unit_u);
+  std::copy_n(frame.v, 3, unit_v);
+  normalize(unit_u);
+  normalize(unit_v);
+  if (!plane_normal(unit_u, unit_v, frame.normal)) return mean;
+  // The border edges of a corner may open by more than 180 degrees: the faces between them tell which side is
+  // out.
+  if (rule == Rule::corner && dot(frame.normal, mean.normal) < 0) {
+    std::swap_ranges(frame.u, frame.u + 3, frame.v);
+    for (Real& x : frame.normal) x = -x;
+  }
+  return frame;
+}
+
+template <class Scheme, class Real>
+std::vector<Frame<Real>> LimitRing<Scheme, Real>::frames() const {
+  std::vector<Frame<Real>> result;
+  for (const Sector& sector : sectors_) result.push_back(frame_of(sector));
+  return result;
+}
+
+template class LimitRing<Loop, float>;
+template class LimitRing<Loop, double>;
+template void normalize<float>(float[3]);
+template void normalize<double>(double[3]);
+template void mean_normal<float>(std::span<const Frame<float>>, float[3]);
+template void mean_normal<double>(std::span<const Frame<double>>, double[3]);
+
+}  // namespace subdivd

@@ -1,0 +1,81 @@
+#pragma once
+// Where a vertex goes when refinement never ends, and the surface's tangent plane there. Works on one ring at
+// a time: the ring of a vertex at the next level depends on its ring at this level alone, so semi-sharp rings
+// are refined by themselves until their sharpness has run out, and the limit masks then hold exactly.
+
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/mesh/sharpness.h"
+#include "core/mesh/topology.h"
+#include "core/schemes/mask.h"
+
+namespace subdivd {
+
+// Tangents and normal of the surface on one side of a vertex: of a sector, the faces between two sharp edges.
+template <class Real>
+struct Frame {
+  Real u[3] = {0, 0, 0}, v[3] = {0, 0, 0};  // span the tangent plane
+  Real normal[3] = {0, 0, 0};               // unit, along u x v; zero where the geometry has no normal
+};
+
+// The ring of vertex `v` with its values, ready for limits. Scheme: see core/schemes/scheme.h.
+template <class Scheme, class Real>
+class LimitRing {
+ public:
+  // `values`: width scalars per vertex of the topology.
+  LimitRing(const Scheme& scheme, CreaseMethod method, const Topology& topology, const Sharpness& sharpness,
+            Index v, std::span<const Real> values, Index width);
+
+  // Limit of the vertex: width scalars.
+  std::vector<Real> position() const;
+
+  // One frame per sector, for width 3. Smooth vertices and darts have one sector. Which frame:
+  //   smooth, dart   the tangent masks of the scheme
+  //   crease         along the crease and across the sector
+  //   corner         of 1 or 2 faces: its two border edges. Of more faces the limit surface has no tangent
+  //                  plane: the mean of the sector's triangles, weighted by area
+  // Where the tangents are parallel (degenerate geometry) the mean of the triangles takes their place.
+  std::vector<Frame<Real>> frames() const;
+
+ private:
+  struct Wedge {  // a face: from ring edge `from` counter-clockwise to ring edge `to`
+    Index from = 0, to = 0;
+  };
+  struct Sector {
+    std::vector<Index> edges;  // counter-clockwise; open: one more than there are faces
+    bool closed = false;
+  };
+
+  void gather(const Topology& topology, const Sharpness& sharpness, Index v, std::span<const Real> values);
+  void gather_sectors(const Topology& topology, Index v);
+  bool settled() const;
+  void step();
+  Rule rule() const;
+  std::vector<Index> dart_order() const;
+  void apply(const RingMask& mask, std::span<const Index> order, Real* out) const;
+  void apply_to_spokes(const RingMask& mask, std::span<const Index> order, Real out[3]) const;
+  Frame<Real> frame_of(const Sector& sector) const;
+  Frame<Real> mean_frame(const Sector& sector) const;
+
+  Scheme scheme_;
+  CreaseMethod method_;
+  Index width_;
+  std::vector<Real> center_, neighbors_;
+  float vertex_sharpness_ = 0;
+  std::vector<float> edge_sharpness_;  // of the ring's edges
+  std::vector<float> far_child_;       // one level on, of the halves that are not next to the vertex
+  std::vector<Wedge> wedges_;
+  std::vector<Sector> sectors_;
+};
+
+// Unit vector along (x, y, z) without over- or underflow; zero when it is zero.
+template <class Real>
+void normalize(Real vector[3]);
+
+// The unit vector in the middle of the frames' normals; zero where they cancel or there is none.
+template <class Real>
+void mean_normal(std::span<const Frame<Real>> frames, Real out[3]);
+
+}  // namespace subdivd

@@ -1,0 +1,177 @@
+#include "core/mesh/channel.h"
+
+#include <algorithm>
+
+namespace subdivd {
+namespace {
+
+// Channel vertices of the corners, and the value of each channel vertex.
+void number_vertices(const Topology& base, std::span<const Index> corner_values, Index value_count,
+                     std::vector<Index>& corners, std::vector<Index>& values) {
+  std::vector<Index> owner(value_count, kNoIndex);  // first point that uses the value
+  values.resize(value_count);
+  for (Index k = 0; k < value_count; ++k) values[k] = k;
+  corners.resize(corner_values.size());
+  std::vector<std::pair<Index, Index>> extra;  // of one point: value, channel vertex; sorted by value
+  for (Index v = 0; v < base.vertex_count(); ++v) {
+    extra.clear();
+    for (Index h : base.vertex_corners(v)) {
+      const Index value = corner_values[h];
+      if (owner[value] == kNoIndex) owner[value] = v;
+      if (owner[value] == v) {
+        corners[h] = value;
+        continue;
+      }
+      auto at = std::ranges::lower_bound(extra, value, {}, &std::pair<Index, Index>::first);
+      if (at == extra.end() || at->first != value) {
+        at = extra.insert(at, {value, static_cast<Index>(values.size())});
+        values.push_back(value);
+      }
+      corners[h] = at->second;
+    }
+  }
+}
+
+// What happens around one point that carries several values, or a seam, in one of its values' fans.
+struct Span {
+  Index faces = 0;
+  Index semi_sharp = 0;   // semi-sharp edges inside
+  bool disjoint = false;  // not one fan, or crossed by an infinitely sharp edge
+};
+
+class Rules {
+ public:
+  Rules(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
+        const Sharpness& base_sharpness, Channel& channel)
+      : mesh_(mesh),
+        crease_method_(crease_method),
+        base_(base),
+        base_sharpness_(base_sharpness),
+        channel_(channel),
+        mode_(mesh.face_varying_linear_interpolation) {}
+
+  void apply() {
+    inherit_edges();
+    std::vector<Index> values;
+    for (Index v = 0; v < base_.vertex_count(); ++v) {
+      values.clear();
+      for (Index h : base_.vertex_corners(v)) values.push_back(channel_.topology.corner_vertex(h));
+      std::ranges::sort(values);
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+      sharpen_around(v, values);
+    }
+  }
+
+ private:
+  bool is_seam(Index h) const {  // base edge of h is a border of the channel but not of the mesh
+    return channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)) &&
+           !base_.is_boundary(base_.half_edge_edge(h));
+  }
+
+  void inherit_edges() {
+    const Topology& topology = channel_.topology;
+    channel_.sharpness.edges.assign(topology.edge_count(), 0.0f);
+    for (Index h = 0; h < topology.triangles().size(); ++h)
+      channel_.sharpness.edges[topology.half_edge_edge(h)] = base_sharpness_.edges[base_.half_edge_edge(h)];
+    for (Index e = 0; e < topology.edge_count(); ++e)
+      if (topology.is_boundary(e) || topology.is_non_manifold_edge(e))
+        channel_.sharpness.edges[e] = kInfiniteSharpness;
+  }
+
+  // Whether the channel around v looks like the mesh around v, so that v's own rule holds.
+  bool matches(Index v, std::span<const Index> values) const {
+    if (values.size() != 1) return false;
+    bool border = false;
+    for (Index h : base_.vertex_corners(v)) {
+      if (is_seam(h) || is_seam(Topology::prev(h))) return false;
+      border |= base_.is_boundary(base_.half_edge_edge(h)) ||
+                base_.is_boundary(base_.half_edge_edge(Topology::prev(h)));
+    }
+    if (!border) return true;
+    if (channel_.linear_borders) return false;
+    const bool corner_is_smooth = mesh_.interpolate_boundary != BoundaryInterpolation::edge_and_corner;
+    return !(base_.vertex_corners(v).size() == 1 && corner_is_smooth &&
+             mode_ != FaceVaryingInterpolation::none);
+  }
+
+  Span span_of(Index c) const {
+    const Topology& topology = channel_.topology;
+    Span span;
+    span.faces = static_cast<Index>(topology.vertex_corners(c).size());
+    span.disjoint = topology.is_non_manifold_vertex(c);
+    for (Index e : topology.vertex_edges(c)) {
+      if (topology.is_boundary(e)) continue;
+      span.disjoint |= is_infinite(channel_.sharpness.edges[e]);
+      span.semi_sharp += is_semi_sharp(channel_.sharpness.edges[e]);
+    }
+    return span;
+  }
+
+  void sharpen_around(Index v, std::span<const Index> values) {
+    auto& vertices = channel_.sharpness.vertices;
+    if (matches(v, values)) {
+      vertices[values[0]] = base_sharpness_.vertices[v];
+      return;
+    }
+    using enum FaceVaryingInterpolation;
+    const bool dependent = mode_ == corners_plus1 || mode_ == corners_plus2;
+    const bool border =
+        std::ranges::any_of(base_.vertex_edges(v), [&](Index e) { return base_.is_boundary(e); });
+    bool all_sharp = channel_.linear_borders || is_infinite(base_sharpness_.vertices[v]) ||
+                     base_.is_non_manifold_vertex(v) || (dependent && values.size() > 2) ||
+                     (mode_ == corners_plus2 && values.size() == 1 && !border);
+    std::vector<Span> spans;
+    for (Index c : values) spans.push_back(span_of(c));
+    if (dependent && spans.size() == 2) {
+      all_sharp |= spans[0].disjoint || spans[1].disjoint;
+      all_sharp |= mode_ == corners_plus2 && (spans[0].faces == 1 || spans[1].faces == 1);
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const bool sharp_corner = spans[k].disjoint || (spans[k].faces == 1 && mode_ != none);
+      vertices[values[k]] = all_sharp || sharp_corner ? kInfiniteSharpness : base_sharpness_.vertices[v];
+    }
+    // One of two values is held by semi-sharp edges inside its fan: the other stays a corner as long.
+    if (dependent && !all_sharp && spans.size() == 2 && spans[0].semi_sharp != spans[1].semi_sharp)
+      for (std::size_t k = 0; k < 2; ++k)
+        if (spans[k].semi_sharp == 0)
+          vertices[values[k]] = std::max(vertices[values[k]], levels_held(values[1 - k]));
+  }
+
+  // Number of levels after which semi-sharp edges still stand around channel vertex c, as a sharpness.
+  float levels_held(Index c) const {
+    std::vector<float> edges, next;
+    for (Index e : channel_.topology.vertex_edges(c)) edges.push_back(channel_.sharpness.edges[e]);
+    next = edges;
+    float levels = 0;
+    for (;; ++levels) {
+      decay_around_vertex(crease_method_, edges, next);
+      if (std::ranges::none_of(next, is_semi_sharp)) return levels;
+      edges.swap(next);
+    }
+  }
+
+  const ControlMesh& mesh_;
+  CreaseMethod crease_method_;
+  const Topology& base_;
+  const Sharpness& base_sharpness_;
+  Channel& channel_;
+  FaceVaryingInterpolation mode_;
+};
+
+}  // namespace
+
+Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
+                     const Sharpness& base_sharpness, std::span<const Index> corner_values,
+                     Index value_count) {
+  Channel channel;
+  std::vector<Index> corners;
+  number_vertices(base, corner_values, value_count, corners, channel.values);
+  channel.topology = Topology(static_cast<Index>(channel.values.size()), std::move(corners));
+  channel.linear = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
+  channel.linear_borders = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
+  channel.sharpness.vertices.assign(channel.topology.vertex_count(), 0.0f);
+  Rules(mesh, crease_method, base, base_sharpness, channel).apply();
+  return channel;
+}
+
+}  // namespace subdivd

@@ -1,0 +1,32 @@
+#pragma once
+// A face-varying channel as a mesh of its own: the same faces over the channel's values, in which a seam is a
+// border. The engine that refines positions then refines the channel; what differs between the six
+// modes of faceVaryingLinearInterpolation is decided here, once, at the control mesh.
+
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/mesh/control_mesh.h"
+#include "core/mesh/sharpness.h"
+#include "core/mesh/topology.h"
+
+namespace subdivd {
+
+struct Channel {
+  Topology topology;  // vertices are (point, value) pairs
+  Sharpness sharpness;
+  // Channel vertex -> index of its value. Values are vertices under their own number; a value that several
+  // points share gets one more vertex, numbered after them, for each further point.
+  std::vector<Index> values;
+  bool linear = false;          // mode all: edge points are midpoints, vertex points stay
+  bool linear_borders = false;  // mode boundaries: every point of the channel's border is a corner
+};
+
+// `corner_values`: one value index per face corner, each < value_count. `base` and `base_sharpness` are the
+// control mesh's own (control_sharpness); the crease method tells how long a semi-sharp crease holds.
+Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
+                     const Sharpness& base_sharpness, std::span<const Index> corner_values,
+                     Index value_count);
+
+}  // namespace subdivd

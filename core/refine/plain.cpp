@@ -1,0 +1,160 @@
+#include "core/refine/plain.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/refine/numbering.h"
+#include "core/schemes/loop.h"
+
+namespace subdivd::plain {
+namespace {
+
+// Sharpness of the halves of every edge: [e][0] next to the lower-numbered end, [e][1] next to the other.
+std::vector<std::array<float, 2>> child_edge_sharpness(const Level& level, CreaseMethod method) {
+  std::vector<std::array<float, 2>> children(level.topology.edge_count());
+  std::vector<float> parent, child;
+  for (Index v = 0; v < level.topology.vertex_count(); ++v) {
+    const auto edges = level.topology.vertex_edges(v);
+    parent.clear();
+    for (Index e : edges) parent.push_back(level.sharpness.edges[e]);
+    child.resize(parent.size());
+    decay_around_vertex(method, parent, child);
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      children[edges[k]][level.topology.edge_vertices(edges[k])[0] == v ? 0 : 1] = child[k];
+  }
+  return children;
+}
+
+std::vector<Index> child_triangles(const Topology& topology) {
+  std::vector<Index> triangles;
+  triangles.reserve(topology.triangles().size() * 4);
+  for (Index f = 0; f < topology.face_count(); ++f) {
+    Index v[3], e[3];
+    for (Index k = 0; k < 3; ++k) {
+      v[k] = topology.corner_vertex(3 * f + k);
+      e[k] = topology.vertex_count() + topology.half_edge_edge(3 * f + k);
+    }
+    triangles.insert(triangles.end(),
+                     {v[0], e[0], e[2], e[0], v[1], e[1], e[2], e[1], v[2], e[0], e[1], e[2]});
+  }
+  return triangles;
+}
+
+std::vector<GridPoint> child_corners(const std::vector<GridPoint>& corners) {
+  std::vector<GridPoint> children;
+  children.reserve(corners.size() * 4);
+  auto sum = [](GridPoint a, GridPoint b) { return GridPoint{a.i + b.i, a.j + b.j}; };
+  for (std::size_t f = 0; f < corners.size(); f += 3) {
+    const GridPoint c[3] = {corners[f], corners[f + 1], corners[f + 2]};
+    const GridPoint v[3] = {sum(c[0], c[0]), sum(c[1], c[1]), sum(c[2], c[2])};
+    const GridPoint e[3] = {sum(c[0], c[1]), sum(c[1], c[2]), sum(c[2], c[0])};
+    children.insert(children.end(), {v[0], e[0], e[2], e[0], v[1], e[1], e[2], e[1], v[2], e[0], e[1], e[2]});
+  }
+  return children;
+}
+
+}  // namespace
+
+Level first_level(Topology topology, Sharpness sharpness) {
+  Level level{std::move(topology), std::move(sharpness), false, false, {}};
+  for (Index f = 0; f < level.topology.face_count(); ++f)
+    level.corners.insert(level.corners.end(), {GridPoint{0, 0}, GridPoint{1, 0}, GridPoint{0, 1}});
+  return level;
+}
+
+Level first_level(const Channel& channel) {
+  Level level = first_level(channel.topology, channel.sharpness);
+  level.linear = channel.linear;
+  level.linear_borders = channel.linear_borders;
+  return level;
+}
+
+Level next_level(const Level& level, CreaseMethod method) {
+  const Topology& parent = level.topology;
+  const Index vertices = parent.vertex_count();
+  Level next{Topology(vertices + parent.edge_count(), child_triangles(parent)),
+             {},
+             level.linear,
+             level.linear_borders,
+             child_corners(level.corners)};
+  const auto children = child_edge_sharpness(level, method);
+  // An edge of the next level is half of an edge (it ends at a vertex point), or lies inside a face: smooth.
+  next.sharpness.edges.assign(next.topology.edge_count(), 0.0f);
+  for (Index e = 0; e < next.topology.edge_count(); ++e) {
+    const auto [vertex_point, edge_point] = next.topology.edge_vertices(e);
+    if (vertex_point >= vertices) continue;
+    const Index p = edge_point - vertices;
+    next.sharpness.edges[e] = children[p][parent.edge_vertices(p)[0] == vertex_point ? 0 : 1];
+  }
+  next.sharpness.vertices.assign(next.topology.vertex_count(), 0.0f);
+  for (Index v = 0; v < vertices; ++v) next.sharpness.vertices[v] = decay(level.sharpness.vertices[v]);
+  if (level.linear_borders)
+    for (Index e = 0; e < parent.edge_count(); ++e)
+      if (parent.is_boundary(e)) next.sharpness.vertices[vertices + e] = kInfiniteSharpness;
+  return next;
+}
+
+template <class Scheme, class Real>
+std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
+                                std::span<const Real> values, Index width) {
+  const Topology& topology = level.topology;
+  const auto children = child_edge_sharpness(level, method);
+  std::vector<Real> next((std::size_t{topology.vertex_count()} + topology.edge_count()) * width);
+  auto add = [&](Real* out, double weight, Index v) {
+    for (Index c = 0; c < width; ++c)
+      out[c] += static_cast<Real>(weight) * values[std::size_t{v} * width + c];
+  };
+
+  std::vector<float> sharpness, child_sharpness;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    const auto edges = topology.vertex_edges(v);
+    sharpness.clear();
+    child_sharpness.clear();
+    for (Index e : edges) {
+      sharpness.push_back(level.sharpness.edges[e]);
+      child_sharpness.push_back(children[e][topology.edge_vertices(e)[0] == v ? 0 : 1]);
+    }
+    const float own = level.sharpness.vertices[v];
+    VertexMask mask;  // v stays
+    if (!level.linear)
+      mask = scheme.vertex_mask({static_cast<Index>(topology.vertex_corners(v).size()), method, own,
+                                 decay(own), sharpness, child_sharpness});
+    Real* out = next.data() + std::size_t{v} * width;
+    if (mask.each != 0)
+      for (Index e : edges) add(out, mask.each, topology.other_end(e, v));
+    if (mask.crease != 0)
+      for (Index end : mask.crease_ends) add(out, mask.crease, topology.other_end(edges[end], v));
+    add(out, mask.self, v);
+  }
+
+  for (Index e = 0; e < topology.edge_count(); ++e) {
+    const auto faces = topology.edge_half_edges(e);
+    EdgeMask mask;  // the midpoint
+    if (!level.linear)
+      mask = scheme.edge_mask(
+          {static_cast<Index>(faces.size()), level.sharpness.edges[e], {children[e][0], children[e][1]}});
+    Real* out = next.data() + (std::size_t{topology.vertex_count()} + e) * width;
+    if (mask.opposite != 0)
+      for (Index h : faces) add(out, mask.opposite, topology.corner_vertex(Topology::prev(h)));
+    for (Index v : topology.edge_vertices(e)) add(out, mask.end, v);
+  }
+  return next;
+}
+
+std::vector<Index> closed_form_numbers(const Topology& base, Index depth, const Level& level) {
+  const Numbering numbering(base, depth);
+  std::vector<Index> numbers(level.topology.vertex_count());
+  for (Index v = 0; v < base.vertex_count(); ++v) numbers[v] = v;
+  for (Index h = 0; h < level.corners.size(); ++h) {
+    const Index face = (h / 3) >> (2 * depth);
+    numbers[level.topology.corner_vertex(h)] = numbering.vertex(face, level.corners[h].i, level.corners[h].j);
+  }
+  return numbers;
+}
+
+template std::vector<float> refine_values(const Loop&, CreaseMethod, const Level&, std::span<const float>,
+                                          Index);
+template std::vector<double> refine_values(const Loop&, CreaseMethod, const Level&, std::span<const double>,
+                                           Index);
+
+}  // namespace subdivd::plain

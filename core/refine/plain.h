@@ -1,0 +1,38 @@
+#pragma once
+// Refinement level by level, with the topology of every level in full: slow, and plain enough to be believed.
+
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/mesh/channel.h"
+#include "core/mesh/sharpness.h"
+#include "core/mesh/topology.h"
+#include "core/refine/split.h"
+
+namespace subdivd::plain {
+
+// One level of a mesh or channel. Vertices of the next level: the vertex points in the order of the vertices,
+// then the edge points in the order of the edges. Face f has the children 4 f + k at its corners k and 4 f +
+// 3 between.
+struct Level {
+  Topology topology;
+  Sharpness sharpness;
+  bool linear = false, linear_borders = false;  // see Channel
+  std::vector<GridPoint> corners;  // per half-edge: where its corner lies on the grid of the base face
+};
+
+Level first_level(Topology topology, Sharpness sharpness);
+Level first_level(const Channel& channel);
+Level next_level(const Level& level, CreaseMethod method);
+
+// Values of the next level's vertices: width scalars each.
+template <class Scheme, class Real>
+std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
+                                std::span<const Real> values, Index width);
+
+// For every vertex of `level` (after `depth` steps from `base`) its number by the closed form; unreferenced
+// points keep theirs.
+std::vector<Index> closed_form_numbers(const Topology& base, Index depth, const Level& level);
+
+}  // namespace subdivd::plain

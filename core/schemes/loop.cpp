@@ -1,0 +1,166 @@
+#include "core/schemes/loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/mesh/sharpness.h"
+
+namespace subdivd {
+namespace {
+
+using std::numbers::pi;
+
+VertexMask smooth_mask(double beta, Index n) { return {1 - n * beta, beta, 0, {0, 0}}; }
+
+// The first and last sharp edge of the ring: for a crease, its two.
+VertexMask crease_mask(std::span<const float> edge_sharpness) {
+  VertexMask mask{3.0 / 4, 0, 1.0 / 8, {0, 0}};
+  bool first = true;
+  for (std::size_t k = 0; k < edge_sharpness.size(); ++k)
+    if (is_sharp(edge_sharpness[k])) {
+      if (first) mask.crease_ends[0] = static_cast<Index>(k);
+      mask.crease_ends[1] = static_cast<Index>(k);
+      first = false;
+    }
+  return mask;
+}
+
+double sum_of(const RingMask& mask) {
+  double sum = mask.self;
+  for (double weight : mask.edges) sum += weight;
+  return sum;
+}
+
+}  // namespace
+
+double Loop::beta(Index n) const {
+  if (weights == LoopWeights::warren) return n == 3 ? 3.0 / 16 : 3.0 / (8.0 * n);
+  if (n == 6) return 1.0 / 16;  // what the formula gives, without its rounding
+  const double a = 3.0 / 8 + std::cos(2 * pi / n) / 4;
+  return (5.0 / 8 - a * a) / n;
+}
+
+EdgeMask Loop::edge_mask(const EdgeRing& ring) const {
+  const EdgeMask smooth{3.0 / 8, 1.0 / 8 * 2 / std::max<Index>(ring.face_count, 1)};
+  const EdgeMask crease{1.0 / 2, 0};
+  if (!is_sharp(ring.sharpness)) return smooth;
+  if (ring.sharpness >= 1 || (is_sharp(ring.child_sharpness[0]) && is_sharp(ring.child_sharpness[1])))
+    return crease;
+  const double s = ring.sharpness;
+  return {s * crease.end + (1 - s) * smooth.end, (1 - s) * smooth.opposite};
+}
+
+VertexMask Loop::vertex_mask(const VertexRing& ring) const {
+  if (ring.face_count == 0) return {};
+  auto mask_of = [&](Rule rule, std::span<const float> edges) {
+    switch (rule) {
+      case Rule::smooth:
+      case Rule::dart:
+        return smooth_mask(beta(ring.face_count), ring.face_count);
+      case Rule::crease:
+        return crease_mask(edges);
+      case Rule::corner:
+        break;
+    }
+    return VertexMask{};
+  };
+  const Rule parent_rule = rule_of(ring.sharpness, ring.edge_sharpness);
+  const VertexMask parent = mask_of(parent_rule, ring.edge_sharpness);
+  if (parent_rule == Rule::smooth || parent_rule == Rule::dart) return parent;
+  const Rule child_rule = rule_of(ring.child_sharpness, ring.child_edge_sharpness);
+  if (child_rule == parent_rule) return parent;
+  const VertexMask child = mask_of(child_rule, ring.child_edge_sharpness);
+  const double w = fractional_weight(ring.crease_method, ring.sharpness, ring.child_sharpness,
+                                     ring.edge_sharpness, ring.child_edge_sharpness);
+  // Sharpness only decays: at most one of the two masks has a crease pair of its own, or both share it.
+  const VertexMask& pair = parent.crease != 0 ? parent : child;
+  return {w * parent.self + (1 - w) * child.self,
+          w * parent.each + (1 - w) * child.each,
+          w * parent.crease + (1 - w) * child.crease,
+          {pair.crease_ends[0], pair.crease_ends[1]}};
+}
+
+VertexMask Loop::smooth_limit_mask(Index n) const {
+  const double e = 1 / (n + 3 / (8 * beta(n)));
+  return {1 - n * e, e, 0, {0, 0}};
+}
+
+VertexMask Loop::crease_limit_mask(Index a, Index b) const { return {2.0 / 3, 0, 1.0 / 6, {a, b}}; }
+
+// With weights x for v, a for the crease's end e_0 and y_k for the others, a limit mask reproduces itself:
+//   e_k:  y_k = beta x + 3/8 y_k + 1/8 (y_{k-1} + y_{k+1}),  y_0 = y_n = 0 because the crease's edge point
+//         takes nothing from its neighbours, so 5 y_k - y_{k-1} - y_{k+1} = 8 beta x;
+//   e_0:  a = beta x + a / 2 + 1/8 (y_1 + y_{n-1}).
+// With r + 1/r = 5, r = (5 - sqrt(21)) / 2:  y_k = 8/3 beta x (1 - (r^k + r^{n-k}) / (1 + r^n)),
+// a = 2 beta x + y_1 / 2 (y_1 = y_{n-1}), and the sum is 1.
+RingMask Loop::dart_limit_mask(Index n) const {
+  const double r = (5 - std::sqrt(21.0)) / 2;
+  RingMask mask{1, std::vector<double>(n)};
+  for (Index k = 1; k < n; ++k)
+    mask.edges[k] = 8.0 / 3 * beta(n) * (1 - (std::pow(r, k) + std::pow(r, n - k)) / (1 + std::pow(r, n)));
+  mask.edges[0] = 2 * beta(n) + (n > 1 ? mask.edges[1] / 2 : 0);
+  const double sum = sum_of(mask);
+  mask.self /= sum;
+  for (double& weight : mask.edges) weight /= sum;
+  return mask;
+}
+
+RingMask Loop::smooth_tangent_u(Index n) const {
+  RingMask mask{0, std::vector<double>(n)};
+  for (Index k = 0; k < n; ++k) mask.edges[k] = std::cos(2 * pi * k / n);
+  return mask;
+}
+
+RingMask Loop::smooth_tangent_v(Index n) const {
+  RingMask mask{0, std::vector<double>(n)};
+  for (Index k = 0; k < n; ++k) mask.edges[k] = std::sin(2 * pi * k / n);
+  return mask;
+}
+
+// Power iteration of m <- m S on the masks that are symmetric about the crease and sum to 0 (so that the
+// eigenvalue 1, whose right eigenvector is constant, plays no part).
+RingMask Loop::dart_tangent_u(Index n) const {
+  const double b = beta(n);
+  const RingMask limit = dart_limit_mask(n);
+  RingMask m = smooth_tangent_u(n);
+  for (int step = 0; step < 128; ++step) {
+    RingMask next{(1 - n * b) * m.self + m.edges[0] / 2, std::vector<double>(n)};
+    next.edges[0] = b * m.self + m.edges[0] / 2;
+    for (Index k = 1; k < n; ++k) {
+      next.self += 3.0 / 8 * m.edges[k];
+      next.edges[k] += b * m.self + 3.0 / 8 * m.edges[k];
+      next.edges[k - 1] += m.edges[k] / 8;
+      next.edges[(k + 1) % n] += m.edges[k] / 8;
+    }
+    const double sum = sum_of(next);
+    next.self -= sum * limit.self;
+    double largest = 0;
+    for (Index k = 0; k < n; ++k) {
+      next.edges[k] -= sum * limit.edges[k];
+      largest = std::max(largest, std::abs(next.edges[k]));
+    }
+    if (largest == 0) return m;
+    next.self /= largest;
+    for (double& weight : next.edges) weight /= largest;
+    m = next;
+  }
+  return m;
+}
+
+// With weights a for e_0 and e_m and sin(i theta) for the e_i between them, which is what the inner columns
+// ask for, the column of e_0 gives a (1 + 2 cos(theta)) = sin(theta) - cot(theta / 2) (weights sum to 0 and
+// sum sin(i theta) = cot(theta / 2)). The formula often printed, sin(theta) for the ends and
+// (2 cos(theta) - 2) sin(i theta) between, belongs to the other edge rule; it agrees only where m = 2.
+RingMask Loop::crease_tangent_across(Index m) const {
+  RingMask mask{0, std::vector<double>(m + 1)};
+  if (m == 1) return {-2, {1, 1}};
+  if (m == 2) return {-1, {0, 1, 0}};
+  const double theta = pi / m;
+  for (Index i = 1; i < m; ++i) mask.edges[i] = std::sin(i * theta);
+  mask.edges[0] = mask.edges[m] = -std::cos(theta) / std::tan(theta / 2) / (1 + 2 * std::cos(theta));
+  mask.self = -sum_of(mask);
+  return mask;
+}
+
+}  // namespace subdivd

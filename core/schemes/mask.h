@@ -1,0 +1,28 @@
+#pragma once
+// Weights in a neighbourhood, in double whatever the mesh is computed in.
+
+#include <vector>
+
+#include "core/base/index.h"
+
+namespace subdivd {
+
+// Edge point = end (a + b) + opposite (o0 + o1 + ...).
+struct EdgeMask {
+  double end = 0.5, opposite = 0;
+};
+
+// Vertex point or limit point = self v + each (e_0 + ... + e_{n-1}) + crease (e_a + e_b), a and b being the
+// crease's edges in the ring's order. The crease pair is (0, 0) where crease is 0.
+struct VertexMask {
+  double self = 1, each = 0, crease = 0;
+  Index crease_ends[2] = {0, 0};
+};
+
+// One weight per ring edge, for masks that tell the edges apart.
+struct RingMask {
+  double self = 0;
+  std::vector<double> edges;
+};
+
+}  // namespace subdivd
