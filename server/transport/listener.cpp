@@ -1,0 +1,103 @@
+#include "server/transport/listener.h"
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+namespace subdivd::server {
+namespace {
+
+constexpr int kBacklog = 1024;
+
+Error failure(const std::string& host, int port, const std::string& reason) {
+  return {ErrorCode::internal,
+          "cannot listen on " + host + " port " + std::to_string(port) + ": " + reason,
+          {},
+          0,
+          0};
+}
+
+int port_of(int fd) {
+  sockaddr_storage address{};
+  socklen_t length = sizeof address;
+  if (::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length) != 0) return 0;
+  if (address.ss_family == AF_INET6) return ntohs(reinterpret_cast<sockaddr_in6*>(&address)->sin6_port);
+  return ntohs(reinterpret_cast<sockaddr_in*>(&address)->sin_port);
+}
+
+// A bound and listening descriptor, or -1 and errno.
+int listen_at(const addrinfo& candidate) {
+  const int fd = ::socket(candidate.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (fd < 0) return -1;
+  const int on = 1;
+  ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (::bind(fd, candidate.ai_addr, candidate.ai_addrlen) == 0 && ::listen(fd, kBacklog) == 0) return fd;
+  const int reason = errno;
+  ::close(fd);
+  errno = reason;
+  return -1;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Listener>> Listener::open(const std::string& host, int port) {
+  std::unique_ptr<Listener> listener(new Listener);
+  if (::pipe2(listener->wake_, O_CLOEXEC | O_NONBLOCK) != 0) return failure(host, port, std::strerror(errno));
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int fault = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
+  if (fault != 0) return failure(host, port, ::gai_strerror(fault));
+  int reason = 0;
+  for (const addrinfo* candidate = found; candidate != nullptr; candidate = candidate->ai_next) {
+    listener->fd_ = listen_at(*candidate);
+    if (listener->fd_ >= 0) break;
+    reason = errno;
+  }
+  ::freeaddrinfo(found);
+  if (listener->fd_ < 0) return failure(host, port, std::strerror(reason));
+  listener->port_ = port_of(listener->fd_);
+  return listener;
+}
+
+Listener::~Listener() {
+  for (const int fd : {fd_, wake_[0], wake_[1]})
+    if (fd >= 0) ::close(fd);
+}
+
+int Listener::accept() {
+  for (;;) {
+    pollfd entries[2] = {{fd_, POLLIN, 0}, {wake_[0], POLLIN, 0}};
+    if (::poll(entries, 2, -1) < 0 && errno != EINTR) return -1;
+    if (entries[1].revents != 0) return -1;
+    const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd >= 0) {
+      // Without it a response of two segments waits for the client's delayed acknowledgement: 40 ms.
+      const int on = 1;
+      ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+      return fd;
+    }
+    // A connection that died in the queue (ECONNABORTED) concerns nobody. Out of descriptors or memory: the
+    // connection stays in the queue, so wait for others to end rather than spin.
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+void Listener::stop() {
+  const char byte = 0;
+  [[maybe_unused]] const ssize_t written = ::write(wake_[1], &byte, 1);
+}
+
+}  // namespace subdivd::server

@@ -1,0 +1,115 @@
+#pragma once
+// A service that answers with what it was asked, or misbehaves when told to by the path, and a transport
+// that carries it.
+
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/transport/transport.h"
+#include "tests/server/raw_client.h"
+
+namespace subdivd::server::testing {
+
+class FakeService final : public Service {
+ public:
+  std::optional<Response> screen(const Request& head) override {
+    if (head.path == "/screen-throws") throw std::runtime_error("secret of screen");
+    if (head.path != "/early") return std::nullopt;
+    return text(403, "early");
+  }
+
+  Response answer(Request& request) override {
+    if (request.path == "/throws") throw std::runtime_error("secret of answer");
+    if (request.path == "/throws-a-number") throw 42;
+    if (request.path == "/large") return large();
+    if (request.path == "/wait") return wait(request);
+    if (request.path == "/peer") return text(200, request.peer);
+    if (request.path == "/size") return text(200, std::to_string(request.body.size()));
+    if (request.path == "/header")
+      return text(200, request.header("x-test") ? *request.header("x-test") : "-");
+    std::string echo = request.method + " " + request.path;
+    for (const auto& [name, value] : request.query) echo += " " + name + "=" + value;
+    return text(200, echo + "\n" + request.body);
+  }
+
+  Response refuse(const Request&, const Refusal& refusal) override {
+    if (refuse_throws) throw std::runtime_error("secret of refuse");
+    return text(refusal.status, std::string(refusal.code) + ": " + refusal.detail);
+  }
+
+  void record(const Exchange& exchange) override {
+    const std::lock_guard lock(mutex);
+    statuses.push_back(exchange.status);
+    if (!exchange.completed) ++broken_off;
+    if (record_throws) throw std::runtime_error("disk full");
+  }
+
+  static Response text(int status, std::string body) {
+    Response response;
+    response.status = status;
+    response.content_type = "text/plain";
+    response.body.push_back(Bytes::of(std::move(body)));
+    return response;
+  }
+
+  static constexpr std::size_t kLargePart = 3'000'000;
+  std::atomic<bool> refuse_throws = false, record_throws = false;
+  std::atomic<bool> let_go = false;                  // ends /wait
+  std::atomic<int> waiting = 0, seen_cancelled = 0;  // requests in /wait; those that were cancelled there
+  std::atomic<int> broken_off = 0;                   // responses that were not sent whole
+  std::mutex mutex;
+  std::vector<int> statuses;
+
+ private:
+  static Response large() {
+    Response response = text(200, std::string(kLargePart, 'a'));
+    response.body.push_back(Bytes::of(std::string(kLargePart, 'b')));
+    return response;
+  }
+
+  Response wait(const Request& request) {
+    ++waiting;
+    while (!let_go && !*request.cancelled) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (*request.cancelled) ++seen_cancelled;
+    --waiting;
+    return text(200, "waited");
+  }
+};
+
+inline TransportOptions quick_options() {
+  TransportOptions options;
+  options.threads = 8;
+  options.max_body_bytes = 100'000;
+  options.max_buffered_bytes = 1'000'000;
+  options.read_timeout = std::chrono::milliseconds(400);
+  options.idle_timeout = std::chrono::milliseconds(400);
+  return options;
+}
+
+// Declared after the service, so that it ends first.
+struct RunningTransport {
+  explicit RunningTransport(const TransportOptions& options = quick_options()) : transport(options, service) {
+    const Result<void> started = transport.start();
+    if (!started) throw std::runtime_error(started.ok() ? "" : "cannot listen");
+    port = transport.port();
+  }
+  FakeService service;
+  Transport transport;
+  int port = 0;
+};
+
+// Polls until the condition holds, for 10 s at most.
+template <class Condition>
+bool eventually(Condition condition) {
+  for (int i = 0; i < 2000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+}  // namespace subdivd::server::testing
