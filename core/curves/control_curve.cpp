@@ -52,7 +52,7 @@ Result<void> check_points(const ControlCurves& curves) {
       return Error{ErrorCode::not_finite,
                    "component " + std::to_string(k % curves.width) + " of point " +
                        std::to_string(k / curves.width) + " is not a finite number",
-                   {"points", k / curves.width}};
+                   {"points", k}};
   return {};
 }
 

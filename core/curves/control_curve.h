@@ -29,8 +29,8 @@ struct ControlCurves {
   Count points_of_curve(Count curve) const {
     return vertex_counts.empty() ? point_count() : vertex_counts[curve];
   }
-  // First fault and its place (JSON names: points, curveVertexCounts). Needs per curve: pinned >= 2,
-  // periodic >= 3, nonperiodic >= 4 points (a cubic segment has four).
+  // First fault and its place (JSON names: points, counted in scalars; curveVertexCounts). Needs per curve:
+  // pinned >= 2, periodic >= 3, nonperiodic >= 4 points (a cubic segment has four).
   Result<void> check() const;
 };
 

@@ -163,7 +163,9 @@ Result<Count> total_points(const ControlCurves& curves, Index level) {
     return Error{ErrorCode::out_of_range,
                  "level " + std::to_string(level) + " is over the maximum of " +
                      std::to_string(kMaxCurveLevel) + " for curves",
-                 {"options", "level"}};
+                 {},
+                 level,
+                 kMaxCurveLevel};
   Count total = 0;
   for (Count c = 0; c < curves.curve_count(); ++c) {
     total += refined_point_count(curves.wrap, curves.points_of_curve(c), level);

@@ -3,6 +3,8 @@
 // interpolation, face-varying interpolation, Limit), level by level, in the same precision. Includes no
 // OpenSubdiv.
 
+#include <string>
+
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/cubic.h"
@@ -12,16 +14,23 @@
 
 namespace subdivd::oracle {
 
-// Tolerances of max_relative: 1e-12 (double), 2e-6 (float) for points, primvars and limits; normals 0.01
-// degrees (double), 0.5 degrees (float). `mesh` must have passed check(): Far itself checks nothing.
-// Levels 1..options.level are compared; limits and normals only where no semi-sharpness is left (Far treats
-// what is left as infinite). options.loop_weights must be `loop` (Far knows no other): `unsupported`
+// "OpenSubdiv 3.5.0 Far": whom the report quotes.
+std::string oracle_name();
+
+// Compares levels 1..options.level (level 0 when that is asked for), at most kMaxFarLevel. `mesh` must have
+// passed check(): Far itself checks nothing. Limits and normals are compared when options ask for them, and
+// left out, counted and named where Far is no witness: where semi-sharpness is left (Far takes it for
+// infinite), at darts (its masks do not know the crease), and for normals where the surface has several sides
+// or Far's tangent is not the surface's: see compare.cpp. Tolerances of max_relative: 1e-12 (double), 2e-6
+// (float); normals 0.01 degrees (double), 0.5 (float); limits of face-varying primvars 1e-7 (Far's masks for
+// them are single precision). options.loop_weights must be `loop` (Far knows no other): `unsupported`
 // otherwise.
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);
 
-// A pinned or periodic cubic curve is the border of a strip (ring) of triangles in Far, any width;
-// a nonperiodic one is the inner part of such a border.
+// A pinned or periodic cubic curve is the border of a strip (ring) of triangles in Far, any width; a
+// nonperiodic one is the inner part of such a border. Far refines its own points level by level, one level at
+// a time. In deviations worst_vertex is the refined point, worst_face the curve, worst_u its parameter t.
 template <class Real>
 Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& options, const Budget& budget);
 

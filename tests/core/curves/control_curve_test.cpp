@@ -80,13 +80,13 @@ TEST(ControlCurve, rejects_numbers_that_do_not_make_whole_points) {
   EXPECT_EQ(code_of(curves), ErrorCode::wrong_length);
 }
 
-TEST(ControlCurve, names_the_point_that_is_not_a_number) {
+TEST(ControlCurve, names_the_coordinate_that_is_not_a_number) {
   auto curves = random_curve(CurveWrap::pinned, 4);
   curves.points[7] = std::nan("");
   const auto checked = curves.check();
   ASSERT_FALSE(checked.ok());
   EXPECT_EQ(checked.error().code, ErrorCode::not_finite);
-  EXPECT_EQ(checked.error().where, (Path{std::string("points"), std::uint64_t{2}}));
+  EXPECT_EQ(checked.error().where, (Path{std::string("points"), std::uint64_t{7}}));
 }
 
 TEST(ControlCurve, rejects_infinity) {

@@ -1,0 +1,277 @@
+#include "core/oracle/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/oracle/correspondence.h"
+#include "core/oracle/tally.h"
+#include "core/refine/split.h"
+
+namespace subdivd::oracle {
+namespace {
+
+constexpr const char* kSemiSharp = "Far takes the sharpness that is left for infinite";
+constexpr const char* kDart = "Far's limit masks at a dart leave the crease out of account";
+constexpr const char* kIsolated = "unreferenced points have no surface";
+constexpr const char* kNonManifold = "no common tangent plane at non-manifold vertices";
+constexpr const char* kSides = "creases inside the surface have a tangent plane on either side";
+constexpr const char* kCorner = "corners of several faces have no common tangent plane";
+constexpr const char* kIrregularBorder =
+    "Far's tangent across a border vertex of more than three faces is no eigenvector of the subdivision";
+constexpr const char* kNoNormal = "degenerate surface without a normal";
+
+using Vector = std::array<double, 3>;
+
+template <class Real>
+Vector vector_at(const std::vector<Real>& values, Index v) {
+  const std::size_t at = std::size_t{3} * v;
+  return {double{values[at]}, double{values[at + 1]}, double{values[at + 2]}};
+}
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Length 1 without overflow; the zero vector stays.
+Vector unit(Vector a) {
+  const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+  if (!(largest > 0)) return a;
+  for (double& x : a) x /= largest;
+  const double length = std::sqrt(dot(a, a));
+  for (double& x : a) x /= length;
+  return a;
+}
+
+// atan2 keeps small angles exact where acos loses half the digits.
+double degrees_between(const Vector& a, const Vector& b) {
+  const Vector normal = cross(a, b);
+  return std::atan2(std::sqrt(dot(normal, normal)), dot(a, b)) * 180 / std::numbers::pi;
+}
+
+// Everything that one level's comparisons share.
+template <class Real>
+struct Sides {
+  const ControlMesh& mesh;
+  const RefinedMesh<Real>& ours;
+  const FarLevel<Real>& far;
+  const Correspondence& pairs;
+  PointScale scale;
+
+  Tally tally(std::string quantity, double unit_size, double tolerance) const {
+    return {std::move(quantity), unit_size, tolerance, static_cast<double>(segments(far.level))};
+  }
+  Site site(Index our_vertex) const { return {our_vertex, ours.provenance[our_vertex]}; }
+  // Calls visit(far vertex, our vertex) for every pair, in our order.
+  template <class Visit>
+  void for_each_pair(Visit&& visit) const {
+    for (Index v = 0; v < pairs.vertices.size(); ++v)
+      if (pairs.vertices[v] != kNoIndex) visit(v, pairs.vertices[v]);
+  }
+};
+
+// A quantity of which one side is incomplete.
+Deviation incomparable(std::string quantity, double tolerance) {
+  Deviation deviation;
+  deviation.quantity = std::move(quantity);
+  deviation.tolerance = tolerance;
+  deviation.exception = "the two sides hold different numbers of values";
+  deviation.within_tolerance = false;
+  return deviation;
+}
+
+// Why a limit by Far is no witness at this vertex; null when it is one.
+const char* limit_objection(const FarVertex& vertex) {
+  if (vertex.faces == 0) return nullptr;  // both sides keep the point
+  if (vertex.semi_sharp) return kSemiSharp;
+  if (vertex.rule == FarRule::dart) return kDart;
+  return nullptr;
+}
+
+const char* normal_objection(const FarVertex& vertex) {
+  if (vertex.faces == 0) return kIsolated;
+  if (const char* reason = limit_objection(vertex)) return reason;
+  if (vertex.non_manifold) return kNonManifold;
+  if (vertex.rule == FarRule::corner && vertex.faces > 1) return kCorner;
+  if (vertex.rule == FarRule::crease && !vertex.boundary) return kSides;
+  if (vertex.rule == FarRule::crease && vertex.faces > 3) return kIrregularBorder;
+  return nullptr;
+}
+
+// Distances of 3-vectors, one per vertex.
+template <class Real>
+Deviation compare_points(const Sides<Real>& sides, const char* quantity, const std::vector<Real>& ours,
+                         const std::vector<Real>& far, bool limit) {
+  const double tolerance = value_tolerance<Real>() * sides.scale.remoteness;
+  if (ours.size() != 3 * sides.ours.provenance.size() || far.size() != 3 * sides.far.vertices.size())
+    return incomparable(quantity, tolerance);
+  Tally tally = sides.tally(quantity, sides.scale.diagonal, tolerance);
+  sides.for_each_pair([&](Index f, Index v) {
+    const char* objection = limit ? limit_objection(sides.far.vertices[f]) : nullptr;
+    if (objection != nullptr) return tally.except(objection);
+    Vector difference = vector_at(ours, v);
+    const Vector other = vector_at(far, f);
+    for (std::size_t k = 0; k < 3; ++k)
+      difference[k] = difference[k] / sides.scale.diagonal - other[k] / sides.scale.diagonal;
+    tally.add(std::sqrt(dot(difference, difference)), sides.site(v));
+  });
+  return tally.finish();
+}
+
+template <class Real>
+Deviation compare_normals(const Sides<Real>& sides) {
+  const FarLevel<Real>& far = sides.far;
+  const std::size_t size = 3 * far.vertices.size();
+  if (sides.ours.normals.size() != 3 * sides.ours.provenance.size() || far.tangents_u.size() != size ||
+      far.tangents_v.size() != size)
+    return incomparable("normals", normal_tolerance<Real>());
+  Tally tally = sides.tally("normals", 1, normal_tolerance<Real>());
+  // Tangents closer to parallel than this say little about a normal: the angle's own rounding grows as
+  // epsilon over their sine, and with the mesh's distance from the origin.
+  const double least_sine = 1e4 * double{std::numeric_limits<Real>::epsilon()} * sides.scale.remoteness;
+  sides.for_each_pair([&](Index f, Index v) {
+    if (const char* objection = normal_objection(far.vertices[f])) return tally.except(objection);
+    const Vector ours = vector_at(sides.ours.normals, v);
+    const Vector theirs = cross(unit(vector_at(far.tangents_u, f)), unit(vector_at(far.tangents_v, f)));
+    if (dot(ours, ours) == 0 || dot(theirs, theirs) < least_sine * least_sine) return tally.except(kNoNormal);
+    tally.add(degrees_between(ours, unit(theirs)), sides.site(v));
+  });
+  return tally.finish();
+}
+
+// The largest difference of a component, in units of `scale`. A NaN wins.
+template <class Real>
+double largest_difference(const Real* a, const Real* b, Index width, double scale) {
+  double largest = 0;
+  for (Index k = 0; k < width; ++k) {
+    const double difference = std::abs(double{a[k]} / scale - double{b[k]} / scale);
+    if (!(difference <= largest)) largest = difference;
+    if (std::isnan(largest)) break;
+  }
+  return largest;
+}
+
+double primvar_scale(const Primvar& primvar) {
+  double largest = 0;
+  for (const double value : primvar.values) largest = std::max(largest, std::abs(value));
+  return largest > 0 ? largest : 1;
+}
+
+// Calls visit(site, far vertex or kNoIndex, our value, Far's value) for every pair of values of a primvar.
+template <class Real, class Visit>
+void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, const FarPrimvar<Real>& far,
+                    Visit&& visit) {
+  switch (ours.interpolation) {
+    case Interpolation::constant:
+      visit(Site{}, kNoIndex, Index{0}, Index{0});
+      break;
+    case Interpolation::vertex:
+    case Interpolation::varying:
+      sides.for_each_pair([&](Index f, Index v) { visit(sides.site(v), f, v, f); });
+      break;
+    case Interpolation::uniform:
+      for (Index f = 0; f < sides.pairs.triangles.size(); ++f)
+        if (const Index t = sides.pairs.triangles[f]; t != kNoIndex)
+          visit(Site{kNoIndex,
+                     {sides.far.base_faces[f], sides.far.corners[3 * f].i, sides.far.corners[3 * f].j}},
+                kNoIndex, t, f);
+      break;
+    case Interpolation::face_varying:
+      for (Index c = 0; c < sides.pairs.corners.size(); ++c)
+        if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
+          visit(Site{sides.ours.triangles[corner],
+                     {sides.far.base_faces[c / 3], sides.far.corners[c].i, sides.far.corners[c].j}},
+                sides.far.faces[c], ours.indices[corner], far.indices[c]);
+      break;
+  }
+}
+
+// Every index that for_each_value will use is within its array.
+template <class Real>
+bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, const std::vector<Real>& our_values,
+              const std::vector<Real>& far_values) {
+  const Count width = ours.element_size;
+  const auto holds = [&](Count count) { return our_values.size() == count * width; };
+  switch (ours.interpolation) {
+    case Interpolation::constant:
+      return holds(1) && far_values.size() == width;
+    case Interpolation::vertex:
+    case Interpolation::varying:
+      return holds(sides.ours.provenance.size());
+    case Interpolation::uniform:
+      return holds(sides.ours.triangle_faces.size());
+    case Interpolation::face_varying:
+      break;
+  }
+  return ours.indices.size() == sides.ours.triangles.size() &&
+         std::all_of(ours.indices.begin(), ours.indices.end(),
+                     [&](Index index) { return index < our_values.size() / width; });
+}
+
+template <class Real>
+Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
+  const Primvar& control = sides.mesh.primvars[p];
+  const bool face_varying = control.interpolation == Interpolation::face_varying;
+  const std::string quantity = "primvars/" + control.name + (limit ? "/limit" : "");
+  const double tolerance =
+      limit && face_varying ? face_varying_limit_tolerance<Real>() : value_tolerance<Real>();
+  if (p >= sides.ours.primvars.size()) return incomparable(quantity, tolerance);
+  const RefinedPrimvar<Real>& ours = sides.ours.primvars[p];
+  const FarPrimvar<Real>& far = sides.far.primvars[p];
+  const std::vector<Real>& our_values = limit ? ours.limit_values : ours.values;
+  const std::vector<Real>& far_values = limit ? far.limit_values : far.values;
+  if (ours.interpolation != control.interpolation || ours.element_size != control.element_size ||
+      !complete(sides, ours, our_values, far_values))
+    return incomparable(quantity, tolerance);
+
+  const double scale = primvar_scale(control);
+  Tally tally = sides.tally(quantity, scale, tolerance);
+  const std::size_t width = control.element_size;
+  for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
+    const char* objection =
+        limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
+    if (objection != nullptr) return tally.except(objection);
+    tally.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
+              site);
+  });
+  return tally.finish();
+}
+
+}  // namespace
+
+template <class Real>
+LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far) {
+  const Correspondence pairs =
+      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far);
+  const Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3)};
+  LevelReport report;
+  report.level = far.level;
+  report.connectivity_identical = pairs.identical;
+  report.vertices = ours.provenance.size();
+  report.triangles = ours.triangle_faces.size();
+  report.deviations.push_back(compare_points(sides, "points", ours.points, far.points, false));
+  if (!ours.limit_points.empty())
+    report.deviations.push_back(
+        compare_points(sides, "limitPoints", ours.limit_points, far.limit_points, true));
+  if (!ours.normals.empty()) report.deviations.push_back(compare_normals(sides));
+  for (std::size_t p = 0; p < mesh.primvars.size(); ++p) {
+    report.deviations.push_back(compare_primvar(sides, p, false));
+    if (!far.primvars[p].limit_values.empty()) report.deviations.push_back(compare_primvar(sides, p, true));
+  }
+  return report;
+}
+
+bool passed(const LevelReport& level) {
+  return level.connectivity_identical &&
+         std::all_of(level.deviations.begin(), level.deviations.end(),
+                     [](const Deviation& deviation) { return deviation.within_tolerance; });
+}
+
+template LevelReport compare(const ControlMesh&, const RefinedMesh<float>&, const FarLevel<float>&);
+template LevelReport compare(const ControlMesh&, const RefinedMesh<double>&, const FarLevel<double>&);
+
+}  // namespace subdivd::oracle

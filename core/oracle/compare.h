@@ -1,0 +1,21 @@
+#pragma once
+// One refined level of ours against the same level by Far.
+
+#include "core/mesh/control_mesh.h"
+#include "core/oracle/far.h"
+#include "core/oracle/report.h"
+#include "core/oracle/scale.h"
+#include "core/refine/refined_mesh.h"
+
+namespace subdivd::oracle {
+
+// `ours` and `far` are both of `mesh`, in the same level. Compares what both hold: points and primvars, and
+// limits and normals if present. Points and limit points deviate by a distance, primvars by the largest
+// difference of a component. Arrays of the wrong length fail as a whole (compared = 0, tolerance missed).
+template <class Real>
+LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far);
+
+// Connectivity identical and every deviation within its tolerance.
+bool passed(const LevelReport& level);
+
+}  // namespace subdivd::oracle

@@ -1,0 +1,140 @@
+#include "core/oracle/far_refiner.h"
+
+#include <opensubdiv/far/error.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+
+#include <numeric>
+
+namespace subdivd::oracle {
+namespace {
+
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+thread_local std::string far_error;  // the callbacks know no other way to tell whose call failed
+
+void remember_error(Far::ErrorType, const char* message) { far_error = message; }
+void remember_warning(const char* message) { far_error = message; }
+
+// Setting the callbacks is not thread-safe in Far; the initialisation of a static is.
+void install_callbacks() {
+  [[maybe_unused]] static const bool installed = [] {
+    Far::SetErrorCallback(remember_error);
+    Far::SetWarningCallback(remember_warning);
+    return true;
+  }();
+}
+
+Sdc::Options::VtxBoundaryInterpolation far_boundary(BoundaryInterpolation boundary) {
+  switch (boundary) {
+    case BoundaryInterpolation::none:
+      return Sdc::Options::VTX_BOUNDARY_NONE;
+    case BoundaryInterpolation::edge_only:
+      return Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
+    case BoundaryInterpolation::edge_and_corner:
+      break;
+  }
+  return Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
+}
+
+Sdc::Options::FVarLinearInterpolation far_linear(FaceVaryingInterpolation mode) {
+  switch (mode) {
+    case FaceVaryingInterpolation::none:
+      return Sdc::Options::FVAR_LINEAR_NONE;
+    case FaceVaryingInterpolation::corners_only:
+      return Sdc::Options::FVAR_LINEAR_CORNERS_ONLY;
+    case FaceVaryingInterpolation::corners_plus1:
+      return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1;
+    case FaceVaryingInterpolation::corners_plus2:
+      return Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2;
+    case FaceVaryingInterpolation::boundaries:
+      return Sdc::Options::FVAR_LINEAR_BOUNDARIES;
+    case FaceVaryingInterpolation::all:
+      break;
+  }
+  return Sdc::Options::FVAR_LINEAR_ALL;
+}
+
+std::vector<int> as_ints(const std::vector<Index>& indices) { return {indices.begin(), indices.end()}; }
+
+// Crease polylines as edges, in the order given: Far, too, keeps the last sharpness of an edge.
+struct CreaseEdges {
+  std::vector<int> ends;  // two per edge
+  std::vector<float> sharpnesses;
+};
+
+CreaseEdges crease_edges(const ControlMesh& mesh) {
+  CreaseEdges edges;
+  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
+  Count point = 0, edge = 0;
+  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
+    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
+      edges.ends.push_back(static_cast<int>(mesh.crease_indices[point]));
+      edges.ends.push_back(static_cast<int>(mesh.crease_indices[point + 1]));
+      edges.sharpnesses.push_back(mesh.crease_sharpnesses[per_crease ? crease : edge]);
+    }
+  return edges;
+}
+
+int size_of(const auto& container) { return static_cast<int>(container.size()); }
+
+}  // namespace
+
+std::string take_far_error() { return std::exchange(far_error, {}); }
+
+std::vector<int> corner_values(const Primvar& primvar, Count corners) {
+  if (!primvar.indices.empty()) return as_ints(primvar.indices);
+  std::vector<int> indices(corners);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method) {
+  install_callbacks();
+  Sdc::Options rules;  // Far's defaults are not OpenUSD's: set all of them
+  rules.SetVtxBoundaryInterpolation(far_boundary(mesh.interpolate_boundary));
+  rules.SetFVarLinearInterpolation(far_linear(mesh.face_varying_linear_interpolation));
+  rules.SetCreasingMethod(crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
+                                                                 : Sdc::Options::CREASE_UNIFORM);
+
+  const std::vector<int> counts(mesh.face_count(), 3);
+  const std::vector<int> indices = as_ints(mesh.face_vertex_indices), holes = as_ints(mesh.hole_indices),
+                         corners = as_ints(mesh.corner_indices);
+  const CreaseEdges creases = crease_edges(mesh);
+  std::vector<std::vector<int>> channel_indices;
+  std::vector<Far::TopologyDescriptor::FVarChannel> channels;
+  for (const Primvar& primvar : mesh.primvars) {
+    if (primvar.interpolation != Interpolation::face_varying) continue;
+    channel_indices.push_back(corner_values(primvar, indices.size()));
+    auto& channel = channels.emplace_back();
+    channel.numValues = static_cast<int>(primvar.values.size() / primvar.element_size);
+    channel.valueIndices = channel_indices.back().data();  // moving the outer vector leaves it in place
+  }
+
+  Far::TopologyDescriptor topology;
+  topology.numVertices = static_cast<int>(mesh.point_count());
+  topology.numFaces = size_of(counts);
+  topology.numVertsPerFace = counts.data();
+  topology.vertIndicesPerFace = indices.data();
+  topology.numCreases = size_of(creases.sharpnesses);
+  topology.creaseVertexIndexPairs = creases.ends.data();
+  topology.creaseWeights = creases.sharpnesses.data();
+  topology.numCorners = size_of(corners);
+  topology.cornerVertexIndices = corners.data();
+  topology.cornerWeights = mesh.corner_sharpnesses.data();
+  topology.numHoles = size_of(holes);
+  topology.holeIndices = holes.data();
+  topology.numFVarChannels = size_of(channels);
+  topology.fvarChannels = channels.data();
+
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  take_far_error();
+  FarRefiner refiner(Factory::Create(topology, Factory::Options(Sdc::SCHEME_LOOP, rules)));
+  const std::string complaint = take_far_error();
+  if (refiner == nullptr || !complaint.empty())
+    return Error{ErrorCode::unsupported, "OpenSubdiv does not take this mesh: " + complaint, {}, 0, 0};
+  return refiner;
+}
+
+}  // namespace subdivd::oracle

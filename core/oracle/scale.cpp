@@ -1,0 +1,54 @@
+#include "core/oracle/scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace subdivd::oracle {
+
+template <>
+double value_tolerance<double>() {
+  return 1e-12;
+}
+template <>
+double value_tolerance<float>() {
+  return 2e-6;
+}
+template <>
+double normal_tolerance<double>() {
+  return 0.01;
+}
+template <>
+double normal_tolerance<float>() {
+  return 0.5;
+}
+template <>
+double face_varying_limit_tolerance<double>() {
+  return 1e-7;
+}
+template <>
+double face_varying_limit_tolerance<float>() {
+  return 2e-6;
+}
+
+PointScale point_scale(std::span<const double> points, Index width) {
+  if (width == 0 || points.size() < width) return {};
+  std::vector<double> low(points.begin(), points.begin() + width), high = low;
+  double largest = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    low[k % width] = std::min(low[k % width], points[k]);
+    high[k % width] = std::max(high[k % width], points[k]);
+    largest = std::max(largest, std::abs(points[k]));
+  }
+  if (!(largest > 0)) return {};
+  double square = 0;  // of half the diagonal, in units of the largest: nothing overflows
+  for (std::size_t k = 0; k < width; ++k) {
+    const double half = high[k] / largest / 2 - low[k] / largest / 2;
+    square += half * half;
+  }
+  const double diagonal = 2 * std::sqrt(square);
+  if (!(diagonal > 0)) return {largest, 1};
+  return {diagonal * largest, std::max(1.0, 1 / diagonal)};
+}
+
+}  // namespace subdivd::oracle

@@ -1,0 +1,72 @@
+#include "core/oracle/verify.h"
+
+#include <opensubdiv/version.h>
+
+#include <algorithm>
+
+#include "core/oracle/compare.h"
+
+namespace subdivd::oracle {
+namespace {
+
+// One remark for every reason for which something was left out, however many levels name it.
+void remark_exceptions(MeshReport& report) {
+  for (const LevelReport& level : report.levels)
+    for (const Deviation& deviation : level.deviations) {
+      if (deviation.exception.empty()) continue;
+      const std::string remark = deviation.quantity + ": left out: " + deviation.exception;
+      if (std::find(report.remarks.begin(), report.remarks.end(), remark) == report.remarks.end())
+        report.remarks.push_back(remark);
+    }
+}
+
+void remark_remoteness(const ControlMesh& mesh, MeshReport& report) {
+  const double remoteness = point_scale(mesh.points, 3).remoteness;
+  if (remoteness > 1)
+    report.remarks.push_back(
+        "the mesh lies far from the origin for its size: coordinates round by their "
+        "magnitude, so the tolerance of positions is " +
+        std::to_string(remoteness) + " times as wide");
+}
+
+}  // namespace
+
+std::string oracle_name() {
+  constexpr int kNumber = OPENSUBDIV_VERSION_NUMBER;  // 30500
+  return "OpenSubdiv " + std::to_string(kNumber / 10000) + "." + std::to_string(kNumber / 100 % 100) + "." +
+         std::to_string(kNumber % 100) + " Far";
+}
+
+template <class Real>
+Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget) {
+  if (options.loop_weights != LoopWeights::loop)
+    return Error{ErrorCode::unsupported,
+                 "OpenSubdiv knows Loop's own weights only; verification needs loopWeights \"loop\"",
+                 {},
+                 0,
+                 0};
+  if (auto fits = check_far_size(mesh, options.level, budget); !fits) return fits.error();
+  MeshReport report;
+  report.name = mesh.name;
+  report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
+  report.passed = true;
+  for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
+    RefineOptions step = options;
+    step.level = level;
+    step.tangents = false;
+    const auto far = far_refine<Real>(mesh, step, budget);
+    if (!far) return far.error();
+    const auto ours = refine<Real>(mesh, step, budget);
+    if (!ours) return ours.error();
+    report.levels.push_back(compare(mesh, *ours, *far));
+    report.passed = report.passed && passed(report.levels.back());
+  }
+  remark_exceptions(report);
+  remark_remoteness(mesh, report);
+  return report;
+}
+
+template Result<MeshReport> verify<float>(const ControlMesh&, const RefineOptions&, const Budget&);
+template Result<MeshReport> verify<double>(const ControlMesh&, const RefineOptions&, const Budget&);
+
+}  // namespace subdivd::oracle
