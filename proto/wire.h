@@ -57,7 +57,9 @@ enum class ArrayForm { nested, flat };
 
 struct JsonMeshForm {
   ArrayForm points = ArrayForm::nested;
-  std::vector<ArrayForm> primvars;  // in the order of ControlMesh::primvars
+  ArrayForm faces = ArrayForm::flat;    // faceVertexIndices
+  ArrayForm creases = ArrayForm::flat;  // creaseIndices
+  std::vector<ArrayForm> primvars;      // values, in the order of ControlMesh::primvars
 };
 
 namespace gltf {
@@ -98,6 +100,10 @@ using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
 // Effective values of what Options leaves open.
 Format answer_format(const RefineRequest& request);
 Precision answer_precision(const RefineRequest& request);
+
+// What the request asks of the core, for every mesh and every curve of it alike.
+RefineOptions mesh_options(const RefineRequest& request);
+CurveOptions curve_options(const RefineRequest& request);
 
 // A piece of an answer's body: bytes and whatever keeps them alive.
 struct Chunk {

@@ -13,7 +13,11 @@ namespace subdivd::proto::json {
 // Reads a JSON body: meshes (not yet checked by ControlMesh::check), curves, options.
 Result<RefineRequest> read(std::string_view body, const Limits& limits);
 
-// Upper bound of the text that write() will make.
+// Whether the body is a JSON object with this member at its top.
+bool has_member(std::string_view body, std::string_view name);
+
+// Upper bounds of the texts that write() and envelope() will make.
+Count predicted_envelope_bytes(const RefineRequest& request);
 Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes);
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer);
@@ -22,6 +26,10 @@ Result<Payload> write(const RefineRequest& request, AnyAnswer answer);
 // that every answer carries, whatever its format. glTF puts it into asset.extras.subdivd. Members that do not
 // apply are left out.
 std::string envelope(const RefineRequest& request, const AnyAnswer& answer);
-std::string report(const oracle::Report& report);
+// The same for an answer that is a report only: options, statistics of the input, warnings, verification.
+std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
+                            const Timings& timings);
+// The verification member. With the request, faces are numbered as the caller numbered them.
+std::string report(const oracle::Report& report, const RefineRequest* request = nullptr);
 
 }  // namespace subdivd::proto::json

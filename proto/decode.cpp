@@ -1,0 +1,148 @@
+#include "proto/decode.h"
+
+#include <cfloat>
+#include <cmath>
+
+#include "core/mesh/repair.h"
+#include "proto/gltf/gltf.h"
+#include "proto/json/json.h"
+#include "proto/options.h"
+#include "proto/prepare.h"
+
+namespace subdivd::proto {
+namespace {
+
+constexpr std::string_view kGlbMagic = "glTF";
+
+Result<RefineRequest> read_gltf(std::string_view body, Format format, const QueryParameters& query,
+                                const Limits& limits) {
+  Options options;
+  if (Result<void> done = set_parameters(options, query); !done) return done.error();
+  Result<RefineRequest> request = gltf::read(body, format, options, limits);
+  if (request && answer_format(*request) == Format::json)
+    request->warnings.emplace_back(
+        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
+        "out");
+  return request;
+}
+
+Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                const Limits& limits) {
+  Result<RefineRequest> request = json::read(body, limits);
+  if (!request) {
+    // A glTF document is JSON, too; looking for its mark only now spares every good request the search.
+    if (json::has_member(body, "asset")) {
+      if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits);
+      request.error().message += "; this looks like glTF, whose content type is model/gltf+json";
+    }
+    return request;
+  }
+  if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
+  return request;
+}
+
+Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const QueryParameters& query,
+                               const Limits& limits) {
+  const bool magic = body.starts_with(kGlbMagic);
+  switch (kind) {
+    case BodyKind::glb:
+      return read_gltf(body, Format::glb, query, limits);
+    case BodyKind::unspecified:
+      if (magic) return read_gltf(body, Format::glb, query, limits);
+      break;
+    case BodyKind::json:
+    case BodyKind::gltf:
+      if (magic)
+        return Error{ErrorCode::malformed,
+                     "the body is a GLB, but its content type says JSON; send it as model/gltf-binary",
+                     {},
+                     0,
+                     0};
+      break;
+  }
+  if (kind == BodyKind::gltf) return read_gltf(body, Format::gltf, query, limits);
+  return read_json(body, kind, query, limits);
+}
+
+void override_meshes(RefineRequest& request) {
+  const Options& options = request.options;
+  for (ControlMesh& mesh : request.meshes) {
+    if (options.interpolate_boundary) mesh.interpolate_boundary = *options.interpolate_boundary;
+    if (options.face_varying_linear_interpolation)
+      mesh.face_varying_linear_interpolation = *options.face_varying_linear_interpolation;
+  }
+}
+
+template <class Real>
+Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes) {
+  Count bytes = 0;
+  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    Result<RefinedSize> size = predict_size<Real>(request.meshes[i], mesh_options(request));
+    if (!size) return blame_input(request, size.error(), "meshes", i);
+    bytes += size->bytes;
+    sizes.push_back(std::move(*size));
+  }
+  for (std::size_t i = 0; i < request.curves.size(); ++i) {
+    const Result<Count> size = predict_bytes<Real>(request.curves[i], curve_options(request));
+    if (!size) return blame_input(request, size.error(), "curves", i);
+    bytes += *size;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                    const Limits& limits) {
+  if (body.size() > limits.max_body_bytes)
+    return Error{ErrorCode::too_large,
+                 std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
+                     std::to_string(limits.max_body_bytes) + " are allowed",
+                 {},
+                 body.size(),
+                 limits.max_body_bytes};
+  Result<RefineRequest> request = read_any(body, kind, query, limits);
+  if (!request) return request;
+  if (Result<void> fine = check_options(request->options, limits, query); !fine) return fine.error();
+  override_meshes(*request);
+  if (Result<void> fine = prepare(*request); !fine) return fine.error();
+  return request;
+}
+
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits) {
+  std::vector<RefinedSize> sizes;
+  const Result<Count> working = answer_precision(request) == Precision::single_precision
+                                    ? working_bytes<float>(request, sizes)
+                                    : working_bytes<double>(request, sizes);
+  if (!working) return working.error();
+  Prediction prediction;
+  prediction.working_bytes = *working;
+  prediction.answer_bytes = answer_format(request) == Format::json ? json::predicted_bytes(request, sizes)
+                                                                   : gltf::predicted_bytes(request, sizes);
+  if (prediction.answer_bytes > limits.max_output_bytes)
+    return Error{ErrorCode::too_large,
+                 std::string("the answer would take up to ") + std::to_string(prediction.answer_bytes) + " bytes; " +
+                     std::to_string(limits.max_output_bytes) +
+                     " are allowed: choose a lower level or a smaller input",
+                 {},
+                 prediction.answer_bytes,
+                 limits.max_output_bytes};
+  return prediction;
+}
+
+Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer) {
+  const Format format = answer_format(request);
+  if (format == Format::json) return json::write(request, std::move(answer));
+  const std::string members = json::envelope(request, answer);
+  return gltf::write(request, std::move(answer), format, members);
+}
+
+Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,
+                              const Timings& timings) {
+  Payload payload;
+  payload.content_type = "application/json";
+  payload.chunks.push_back(Chunk::own(json::report_envelope(request, report, timings)));
+  return payload;
+}
+
+}  // namespace subdivd::proto

@@ -1,0 +1,115 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/refine/refine.h"
+#include "core/refine/split.h"
+#include "proto/json/json.h"
+#include "proto/options.h"
+
+namespace subdivd::proto::json {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A microsecond is as fine as a clock tells the truth.
+double rounded(double milliseconds) { return std::round(milliseconds * 1000) / 1000; }
+
+Json milliseconds(const RefineRequest& request, const Timings& timings, bool refined) {
+  Json json = {{"read", rounded(timings.read)}};
+  if (refined) json["refine"] = rounded(timings.refine);
+  if (!refined || request.options.verify) json["verify"] = rounded(timings.verify);
+  return json;
+}
+
+// Holes count here: they are refined, too.
+Json mesh_levels(const ControlMesh& mesh, Index level) {
+  Json levels = Json::array();
+  const auto size = predict_size<float>(mesh, {.level = 0});
+  if (!size) return levels;
+  for (Index l = 0; l <= level; ++l) {
+    const LevelCounts counts = refined_counts(mesh.point_count(), size->counts.edges, mesh.face_count(), l);
+    levels.push_back({{"level", l},
+                      {"vertices", counts.vertices},
+                      {"edges", counts.edges},
+                      {"triangles", counts.triangles}});
+  }
+  return levels;
+}
+
+Json curve_levels(const ControlCurves& curves, Index level) {
+  Json levels = Json::array();
+  for (Index l = 0; l <= level; ++l) {
+    Count points = 0;
+    if (curves.vertex_counts.empty()) points = refined_point_count(curves.wrap, curves.point_count(), l);
+    for (const Index count : curves.vertex_counts) points += refined_point_count(curves.wrap, count, l);
+    levels.push_back({{"level", l}, {"points", points}});
+  }
+  return levels;
+}
+
+Json mesh_statistics(const ControlMesh& mesh, Index level) {
+  Json json;
+  if (!mesh.name.empty()) json["name"] = mesh.name;
+  json["input"] = {{"points", mesh.point_count()}, {"faces", mesh.face_count()}};
+  json["levels"] = mesh_levels(mesh, level);
+  return json;
+}
+
+Json curve_statistics(const ControlCurves& curves, Index level) {
+  Json json;
+  if (!curves.name.empty()) json["name"] = curves.name;
+  json["input"] = {{"points", curves.point_count()},
+                   {"curves", curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size()}};
+  json["levels"] = curve_levels(curves, level);
+  return json;
+}
+
+Json statistics(const RefineRequest& request) {
+  Json json;
+  const Index level = request.options.level;
+  for (const ControlMesh& mesh : request.meshes) json["meshes"].push_back(mesh_statistics(mesh, level));
+  for (const ControlCurves& curves : request.curves)
+    json["curves"].push_back(curve_statistics(curves, level));
+  return json;
+}
+
+template <class Real>
+void add_outputs(Json& json, const RefineAnswer<Real>& answer) {
+  for (std::size_t i = 0; i < answer.meshes.size() && i < json["meshes"].size(); ++i)
+    json["meshes"][i]["output"] = {{"points", answer.meshes[i].points.size() / 3},
+                                   {"triangles", answer.meshes[i].triangles.size() / 3}};
+  for (std::size_t i = 0; i < answer.curves.size() && i < json["curves"].size(); ++i)
+    json["curves"][i]["output"] = {{"points", answer.curves[i].points.size() / answer.curves[i].width}};
+}
+
+// Everything but the verification, which is already text.
+std::string assemble(const RefineRequest& request, Json numbers, const Timings& timings, bool refined,
+                     const oracle::Report* verification) {
+  numbers["milliseconds"] = milliseconds(request, timings, refined);
+  std::string text = std::string("{\"options\":") + effective_options(request) +
+                     ",\"statistics\":" + numbers.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!request.warnings.empty())
+    text += std::string(",\"warnings\":") + Json(request.warnings).dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (verification != nullptr) text += std::string(",\"verification\":") + report(*verification, &request);
+  return text + '}';
+}
+
+}  // namespace
+
+std::string envelope(const RefineRequest& request, const AnyAnswer& answer) {
+  Json numbers = statistics(request);
+  return std::visit(
+      [&](const auto& typed) {
+        add_outputs(numbers, typed);
+        const auto* verification = typed.verification ? &*typed.verification : nullptr;
+        return assemble(request, std::move(numbers), typed.timings, true, verification);
+      },
+      answer);
+}
+
+std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
+                            const Timings& timings) {
+  return assemble(request, statistics(request), timings, false, &verification);
+}
+
+}  // namespace subdivd::proto::json

@@ -1,0 +1,33 @@
+#pragma once
+// From the core's places to the caller's: the core counts in flat arrays of the mesh it was given, the caller
+// may have written nested ones, and faces may have been split or left out on the way.
+
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/base/result.h"
+#include "core/mesh/control_mesh.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto::json {
+
+// What was done to a mesh between reading and checking; empty vectors: nothing.
+struct FaceHistory {
+  std::vector<Index> counts;        // faceVertexCounts as read; empty: triangles
+  std::vector<Index> triangulated;  // face as read of every face after triangulate()
+  std::vector<Index> kept;          // face after triangulate() of every face after drop_degenerate_faces()
+
+  bool changed() const { return !triangulated.empty() || !kept.empty(); }
+  // The face as read that a present face came from; all of them, or empty when they are the same.
+  Index original_face(Index face) const;
+  std::vector<Index> original_faces() const;
+};
+
+// `where` as ControlMesh::check() gives it for the mesh as it is now, e.g. {"points", 17}; returns the path
+// below the mesh, e.g. {"points", 5, 2}. A place that cannot be told any more is widened to its array.
+Path locate(Path where, const ControlMesh& mesh, const JsonMeshForm& form, const FaceHistory& history);
+
+// The same for ControlCurves::check().
+Path locate(Path where, const ControlCurves& curves, ArrayForm form);
+
+}  // namespace subdivd::proto::json

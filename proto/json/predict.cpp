@@ -1,0 +1,101 @@
+#include <string>
+
+#include "core/curves/cubic.h"
+#include "core/refine/refine.h"
+#include "proto/json/json.h"
+
+namespace subdivd::proto::json {
+namespace {
+
+// The longest shortest texts: -1.17549435e-38 and -2.2250738585072014e-308, and the comma.
+constexpr Count kFloatText = 15 + 1, kDoubleText = 24 + 1;
+constexpr Count kMemberText = 512;  // names and brackets of the members of one mesh or primvar
+
+// What escaping makes of a name at worst: \u0001.
+Count name_text(const std::string& name) { return 6 * Count{name.size()} + 2; }
+
+Count digits(Count largest) { return std::to_string(largest).size(); }
+
+// Two brackets per tuple whatever the form.
+Count tuples_text(Count tuples, Count width, Count number) { return tuples * (width * number + 2) + 2; }
+Count indices_text(Count count, Count values) { return count * (digits(values) + 1) + 2; }
+
+Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, bool normals) {
+  const Count vertices = size.counts.vertices, triangles = size.counts.triangles;
+  Count bytes = kMemberText + name_text(mesh.name) + tuples_text(vertices, 3, number) + 2 * triangles +
+                indices_text(3 * triangles, vertices);
+  if (normals) bytes += tuples_text(vertices, 3, number);
+  std::size_t channel = 0;
+  for (const Primvar& primvar : mesh.primvars) {
+    Count values = 1;
+    switch (primvar.interpolation) {
+      case Interpolation::constant:
+        values = 1;
+        break;
+      case Interpolation::uniform:
+        values = triangles;
+        break;
+      case Interpolation::varying:
+      case Interpolation::vertex:
+        values = vertices;
+        break;
+      case Interpolation::face_varying:
+        values = size.channel_values[channel++];
+        break;
+    }
+    bytes += kMemberText + name_text(primvar.name) + tuples_text(values, primvar.element_size, number);
+    if (primvar.interpolation == Interpolation::face_varying) bytes += indices_text(3 * triangles, values);
+  }
+  return bytes;
+}
+
+Count curves_text(const ControlCurves& curves, Index level, Count number, bool tangents) {
+  Count points = 0;
+  if (curves.vertex_counts.empty()) points = refined_point_count(curves.wrap, curves.point_count(), level);
+  for (const Index count : curves.vertex_counts) points += refined_point_count(curves.wrap, count, level);
+  const Count arrays = tangents ? 2 : 1;
+  const Count curve_count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
+  return kMemberText + name_text(curves.name) + arrays * tuples_text(points, curves.width, number) +
+         indices_text(curve_count, points);
+}
+
+// One level of a verification: positions, limits, normals, two quantities per primvar, each a Deviation.
+Count verification_text(const ControlMesh* mesh, Index level) {
+  constexpr Count deviation = 1024;
+  Count quantities = 3;
+  if (mesh != nullptr)
+    for (const Primvar& primvar : mesh->primvars)
+      quantities += 2 + 2 * name_text(primvar.name) / deviation + 1;
+  return 2048 + (Count{level} + 1) * (256 + quantities * deviation);
+}
+
+}  // namespace
+
+Count predicted_envelope_bytes(const RefineRequest& request) {
+  const Index level = request.options.level;
+  const Count levels = 256 + 128 * (Count{level} + 1);
+  Count bytes = 2048;
+  for (const std::string& warning : request.warnings) bytes += name_text(warning) + 1;
+  for (const ControlMesh& mesh : request.meshes) {
+    bytes += name_text(mesh.name) + levels;
+    if (request.options.verify) bytes += name_text(mesh.name) + verification_text(&mesh, level);
+  }
+  for (const ControlCurves& curves : request.curves) {
+    bytes += name_text(curves.name) + levels;
+    if (request.options.verify) bytes += name_text(curves.name) + verification_text(nullptr, level);
+  }
+  return bytes;
+}
+
+Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes) {
+  const Count number = answer_precision(request) == Precision::single_precision ? kFloatText : kDoubleText;
+  const bool normals = request.options.normals;
+  Count bytes = predicted_envelope_bytes(request) + 64;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    bytes += mesh_text(request.meshes[i], meshes[i], number, normals);
+  for (const ControlCurves& curves : request.curves)
+    bytes += curves_text(curves, request.options.level, number, normals);
+  return bytes;
+}
+
+}  // namespace subdivd::proto::json

@@ -1,0 +1,175 @@
+#include "proto/json/read_mesh.h"
+
+#include "proto/json/read_primvar.h"
+#include "proto/options.h"
+
+namespace subdivd::proto::json {
+namespace {
+
+constexpr std::size_t kMostPrimvars = 4096;
+
+// A word of an option that a mesh may also set for itself.
+template <class Enum>
+bool read_option_word(Cursor& cursor, Value value, std::string_view option, Enum& out) {
+  std::size_t word = 0;
+  if (!cursor.read_word(value, find_option(option)->words, word)) return false;
+  out = static_cast<Enum>(word);
+  return true;
+}
+
+// Nested lists bring their lengths along; a member with the lengths must then agree.
+bool merge_counts(Cursor& cursor, Lists& lists, std::vector<Index>& counts, bool given, const char* member) {
+  if (lists.form == ArrayForm::flat) return true;
+  if (!given) {
+    counts = std::move(lists.counts);
+    return true;
+  }
+  if (counts == lists.counts) return true;
+  return cursor.fail(ErrorCode::wrong_length,
+                     "these lengths differ from those of the nested arrays; leave this member out", {member});
+}
+
+}  // namespace
+
+const std::array<Cursor::Member<MeshReader>, MeshReader::kMembers>& MeshReader::members() {
+  static constexpr std::array<Cursor::Member<MeshReader>, kMembers> table = {{
+      {"name", &MeshReader::name},
+      {"points", &MeshReader::points},
+      {"faceVertexCounts", &MeshReader::face_vertex_counts},
+      {"faceVertexIndices", &MeshReader::face_vertex_indices},
+      {"subdivisionScheme", &MeshReader::subdivision_scheme},
+      {"interpolateBoundary", &MeshReader::interpolate_boundary},
+      {"faceVaryingLinearInterpolation", &MeshReader::face_varying_linear_interpolation},
+      {"creaseIndices", &MeshReader::crease_indices},
+      {"creaseLengths", &MeshReader::crease_lengths},
+      {"creaseSharpnesses", &MeshReader::crease_sharpnesses},
+      {"cornerIndices", &MeshReader::corner_indices},
+      {"cornerSharpnesses", &MeshReader::corner_sharpnesses},
+      {"holeIndices", &MeshReader::hole_indices},
+      {"primvars", &MeshReader::primvars},
+      {"normals", &MeshReader::normals},
+  }};
+  return table;
+}
+
+bool MeshReader::name(Value value) { return cursor_.read_string(value, result_.mesh.name); }
+
+bool MeshReader::points(Value value) {
+  Tuples tuples;
+  has_points_ = true;
+  if (!read_tuples(cursor_, value, 3, 3, "point", tuples)) return false;
+  result_.mesh.points = std::move(tuples.values);
+  result_.form.points = tuples.form;
+  return true;
+}
+
+bool MeshReader::face_vertex_counts(Value value) {
+  has_counts_ = true;
+  return read_indices(cursor_, value, result_.mesh.face_vertex_counts);
+}
+
+bool MeshReader::face_vertex_indices(Value value) {
+  has_faces_ = true;
+  return read_lists(cursor_, value, "face", faces_);
+}
+
+bool MeshReader::subdivision_scheme(Value value) {
+  static constexpr std::array<std::string_view, 1> kSchemes = {"loop"};
+  std::size_t word = 0;
+  if (!cursor_.read_word(value, kSchemes, word)) return false;
+  result_.mesh.subdivision_scheme = kSchemes[word];
+  return true;
+}
+
+bool MeshReader::interpolate_boundary(Value value) {
+  return read_option_word(cursor_, value, "interpolateBoundary", result_.mesh.interpolate_boundary);
+}
+
+bool MeshReader::face_varying_linear_interpolation(Value value) {
+  return read_option_word(cursor_, value, "faceVaryingLinearInterpolation",
+                          result_.mesh.face_varying_linear_interpolation);
+}
+
+bool MeshReader::crease_indices(Value value) { return read_lists(cursor_, value, "crease", creases_); }
+
+bool MeshReader::crease_lengths(Value value) {
+  has_lengths_ = true;
+  return read_indices(cursor_, value, result_.mesh.crease_lengths);
+}
+
+bool MeshReader::crease_sharpnesses(Value value) {
+  return read_sharpnesses(cursor_, value, result_.mesh.crease_sharpnesses);
+}
+
+bool MeshReader::corner_indices(Value value) {
+  return read_indices(cursor_, value, result_.mesh.corner_indices);
+}
+
+bool MeshReader::corner_sharpnesses(Value value) {
+  return read_sharpnesses(cursor_, value, result_.mesh.corner_sharpnesses);
+}
+
+bool MeshReader::hole_indices(Value value) { return read_indices(cursor_, value, result_.mesh.hole_indices); }
+
+bool MeshReader::primvars(Value value) {
+  simdjson::ondemand::object object;
+  if (value.get_object().get(object)) return cursor_.fail_type(value, "an object of primvars by name");
+  std::set<std::string> names;
+  for (auto field : object) {
+    std::string_view key;
+    Value one;
+    if (field.unescaped_key().get(key) || field.value().get(one)) return cursor_.fail_syntax();
+    if (!names.emplace(key).second) return cursor_.fail_twice(key);
+    if (names.size() > kMostPrimvars)
+      return cursor_.fail(ErrorCode::too_large,
+                          std::string("a mesh may have at most ") + std::to_string(kMostPrimvars) + " primvars");
+    const Cursor::Step step(cursor_, std::string(key));
+    Primvar primvar;
+    primvar.name = key;
+    ArrayForm form = ArrayForm::flat;
+    if (!read_primvar(cursor_, one, primvar, form)) return false;
+    result_.mesh.primvars.push_back(std::move(primvar));
+    result_.form.primvars.push_back(form);
+  }
+  return true;
+}
+
+// An answer fed back brings them: they are read, so that faults are found, and come anew from the surface.
+bool MeshReader::normals(Value value) {
+  Tuples unused;
+  result_.had_normals = true;
+  return read_tuples(cursor_, value, 3, 3, "normal", unused);
+}
+
+bool MeshReader::finish() {
+  if (!has_points_ || !has_faces_) {
+    const std::string missing = has_points_ ? "faceVertexIndices" : "points";
+    return cursor_.fail(ErrorCode::missing_field, std::string("a mesh needs ") + missing, {missing});
+  }
+  ControlMesh& mesh = result_.mesh;
+  if (!merge_counts(cursor_, faces_, mesh.face_vertex_counts, has_counts_, "faceVertexCounts")) return false;
+  if (!merge_counts(cursor_, creases_, mesh.crease_lengths, has_lengths_, "creaseLengths")) return false;
+  mesh.face_vertex_indices = std::move(faces_.indices);
+  mesh.crease_indices = std::move(creases_.indices);
+  result_.form.faces = faces_.form;
+  result_.form.creases = creases_.form;
+  if (mesh.face_vertex_counts.empty() && mesh.face_vertex_indices.size() % 3 != 0)
+    return cursor_.fail(ErrorCode::wrong_length,
+                        std::string("faceVertexIndices holds ") + std::to_string(mesh.face_vertex_indices.size()) +
+                            " indices; without faceVertexCounts all faces are triangles, so it must hold a "
+                            "multiple of 3",
+                        {"faceVertexIndices"});
+  return true;
+}
+
+bool read_mesh(Cursor& cursor, Value value, MeshRead& out) {
+  simdjson::ondemand::object object;
+  if (value.get_object().get(object)) return cursor.fail_type(value, "a mesh, an object");
+  MeshReader reader(cursor);
+  std::bitset<MeshReader::kMembers> seen;
+  if (!cursor.read_members(object, MeshReader::members(), reader, seen) || !reader.finish()) return false;
+  out = reader.take();
+  return true;
+}
+
+}  // namespace subdivd::proto::json

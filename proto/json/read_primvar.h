@@ -1,0 +1,16 @@
+#pragma once
+// One primvar of a mesh.
+
+#include "core/mesh/control_mesh.h"
+#include "proto/json/cursor.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto::json {
+
+// The words of `interpolation`, in the order of the enumeration.
+std::span<const std::string_view> interpolation_words();
+
+// Fills everything but the name. `form` is that of `values`.
+bool read_primvar(Cursor& cursor, Value value, Primvar& out, ArrayForm& form);
+
+}  // namespace subdivd::proto::json

@@ -1,0 +1,80 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "proto/json/json.h"
+
+namespace subdivd::proto::json {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no NaN: null stands for both.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// `faces`: the face of the input of every face that was compared; empty: the same.
+Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
+  Json json;
+  if (deviation.worst_vertex == kNoIndex) return nullptr;
+  json["vertex"] = deviation.worst_vertex;
+  if (deviation.worst_face != kNoIndex) {
+    const Index face = deviation.worst_face;
+    json["face"] = face < faces.size() ? faces[face] : face;
+    json["u"] = number(deviation.worst_u);
+    json["v"] = number(deviation.worst_v);
+  }
+  return json;
+}
+
+Json deviation_json(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
+  Json json = {{"quantity", deviation.quantity},
+               {"withinTolerance", deviation.within_tolerance},
+               {"tolerance", number(deviation.tolerance)},
+               {"maxRelative", number(deviation.max_relative)},
+               {"rmsRelative", number(deviation.rms_relative)},
+               {"maxAbsolute", number(deviation.max_absolute)},
+               {"rmsAbsolute", number(deviation.rms_absolute)},
+               {"compared", deviation.compared}};
+  if (Json place = worst(deviation, faces); !place.is_null()) json["worst"] = std::move(place);
+  if (deviation.excepted > 0) {
+    json["excepted"] = deviation.excepted;
+    json["exception"] = deviation.exception;
+  }
+  return json;
+}
+
+// A MeshReport or a CurveReport.
+template <class One>
+Json one_report(const One& one, const std::vector<Index>& faces) {
+  Json json;
+  if (!one.name.empty()) json["name"] = one.name;
+  json["precision"] = one.precision;
+  json["passed"] = one.passed;
+  json["levels"] = Json::array();
+  for (const oracle::LevelReport& level : one.levels) {
+    Json deviations = Json::array();
+    for (const oracle::Deviation& deviation : level.deviations)
+      deviations.push_back(deviation_json(deviation, faces));
+    json["levels"].push_back({{"level", level.level},
+                              {"connectivityIdentical", level.connectivity_identical},
+                              {"vertices", level.vertices},
+                              {"triangles", level.triangles},
+                              {"deviations", std::move(deviations)}});
+  }
+  if (!one.remarks.empty()) json["remarks"] = one.remarks;
+  return json;
+}
+
+}  // namespace
+
+std::string report(const oracle::Report& report, const RefineRequest* request) {
+  Json json = {{"oracle", report.oracle}, {"passed", report.passed}};
+  static const std::vector<Index> kSame;
+  for (std::size_t i = 0; i < report.meshes.size(); ++i) {
+    const bool moved = request != nullptr && i < request->face_origins.size();
+    json["meshes"].push_back(one_report(report.meshes[i], moved ? request->face_origins[i] : kSame));
+  }
+  for (const oracle::CurveReport& curve : report.curves) json["curves"].push_back(one_report(curve, kSame));
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace subdivd::proto::json

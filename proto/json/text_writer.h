@@ -1,0 +1,59 @@
+#pragma once
+// JSON text into chunks of about a megabyte: a big answer is never one string, so it never needs twice its
+// size. Numbers are written with std::to_chars, the shortest text that reads back to the same bits.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/index.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto::json {
+
+// A JSON string literal; bytes that are not UTF-8 become U+FFFD.
+std::string quoted_json(std::string_view text);
+
+class TextWriter {
+ public:
+  static constexpr std::size_t kAllFinite = static_cast<std::size_t>(-1);
+
+  void raw(std::string_view text);
+  // The comma before a member or an element, unless it is the first.
+  void separate();
+  void key(std::string_view name);  // separate(), then "name":
+  void string(std::string_view text) { raw(quoted_json(text)); }
+
+  void open(char bracket) { raw(std::string_view(&bracket, 1)); }
+  void close(char bracket) { raw(std::string_view(&bracket, 1)); }
+
+  // [[x,y,z],…] or [x,y,z,…]. Stops at a number that is not finite and returns its place, otherwise
+  // kAllFinite.
+  template <class Real>
+  std::size_t tuples(std::span<const Real> values, std::size_t width, ArrayForm form);
+  void indices(std::span<const Index> values, std::size_t width, ArrayForm form);
+
+  std::vector<Chunk> finish();
+
+ private:
+  template <class Number>
+  std::size_t array(std::span<const Number> values, std::size_t width, ArrayForm form);
+  // Makes room for `bytes` more and returns where they go.
+  char* room(std::size_t bytes) {
+    if (buffer_.size() - used_ < bytes) flush(bytes);
+    return buffer_.data() + used_;
+  }
+  void flush(std::size_t bytes);
+
+  std::vector<Chunk> chunks_;
+  std::string buffer_;
+  std::size_t used_ = 0, next_size_ = 1 << 14;
+  char last_ = 0;  // of what has been flushed
+};
+
+extern template std::size_t TextWriter::tuples<float>(std::span<const float>, std::size_t, ArrayForm);
+extern template std::size_t TextWriter::tuples<double>(std::span<const double>, std::size_t, ArrayForm);
+
+}  // namespace subdivd::proto::json

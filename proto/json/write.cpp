@@ -1,0 +1,156 @@
+#include <utility>
+
+#include "proto/json/json.h"
+#include "proto/json/text_writer.h"
+#include "proto/json/words.h"
+
+namespace subdivd::proto::json {
+namespace {
+
+// Writes one answer; the first number that is not finite ends it.
+template <class Real>
+class AnswerWriter {
+ public:
+  AnswerWriter(const RefineRequest& request, RefineAnswer<Real> answer)
+      : request_(request), answer_(std::move(answer)) {}
+
+  Result<Payload> write(std::string_view envelope) {
+    text_.open('{');
+    write_meshes();
+    if (!answer_.curves.empty()) {
+      text_.key("curves");
+      text_.open('[');
+      for (std::size_t i = 0; i < answer_.curves.size() && !error_; ++i) write_curves(i);
+      text_.close(']');
+    }
+    if (error_) return *error_;
+    text_.separate();
+    text_.raw(envelope.substr(1));  // the rest of an object, closing brace included
+    Payload payload;
+    payload.content_type = "application/json";
+    payload.chunks = text_.finish();
+    return payload;
+  }
+
+ private:
+  void write_meshes() {
+    if (request_.single_mesh_at_top && answer_.meshes.size() == 1) {
+      write_mesh(0);
+      return;
+    }
+    if (answer_.meshes.empty() && !answer_.curves.empty()) return;
+    text_.key("meshes");
+    text_.open('[');
+    for (std::size_t i = 0; i < answer_.meshes.size() && !error_; ++i) {
+      text_.separate();
+      text_.open('{');
+      write_mesh(i);
+      text_.close('}');
+    }
+    text_.close(']');
+  }
+
+  void write_mesh(std::size_t i) {
+    RefinedMesh<Real>& mesh = answer_.meshes[i];
+    const ControlMesh& control = request_.meshes[i];
+    const JsonMeshForm form = i < request_.mesh_forms.size() ? request_.mesh_forms[i] : JsonMeshForm{};
+    word("name", mesh.name, !mesh.name.empty());
+    array(chosen(mesh.points, mesh.limit_points), "points", 3, form.points, i);
+    text_.key("faceVertexIndices");
+    text_.indices(std::exchange(mesh.triangles, {}), 3, form.faces);
+    word("interpolateBoundary", word_of(control.interpolate_boundary));
+    word("faceVaryingLinearInterpolation", word_of(control.face_varying_linear_interpolation));
+    if (!mesh.primvars.empty()) {
+      text_.key("primvars");
+      text_.open('{');
+      for (std::size_t p = 0; p < mesh.primvars.size() && !error_; ++p)
+        write_primvar(mesh.primvars[p], p < form.primvars.size() ? form.primvars[p] : ArrayForm::nested, i);
+      text_.close('}');
+    }
+    if (request_.options.normals) array(std::exchange(mesh.normals, {}), "normals", 3, form.points, i);
+  }
+
+  void write_primvar(RefinedPrimvar<Real>& primvar, ArrayForm form, std::size_t mesh) {
+    text_.key(primvar.name);
+    text_.open('{');
+    word("interpolation", word_of(primvar.interpolation));
+    text_.key("elementSize");
+    text_.raw(std::to_string(primvar.element_size));
+    array(chosen(primvar.values, primvar.limit_values), "values", primvar.element_size, form, mesh);
+    if (!primvar.indices.empty()) {
+      text_.key("indices");
+      text_.indices(std::exchange(primvar.indices, {}), 1, ArrayForm::flat);
+    }
+    text_.close('}');
+  }
+
+  void write_curves(std::size_t i) {
+    RefinedCurves<Real>& curves = answer_.curves[i];
+    // A flat array would be read back as points of three numbers.
+    const bool nested =
+        curves.width != 3 || i >= request_.curve_forms.size() || request_.curve_forms[i] == ArrayForm::nested;
+    const ArrayForm form = nested ? ArrayForm::nested : ArrayForm::flat;
+    text_.separate();
+    text_.open('{');
+    word("name", curves.name, !curves.name.empty());
+    word("type", "cubic");
+    word("basis", "bspline");
+    word("wrap", word_of(curves.wrap));
+    array(chosen(curves.points, curves.limit_points), "points", curves.width, form, i, "curves");
+    text_.key("curveVertexCounts");
+    text_.indices(curves.vertex_counts, 1, ArrayForm::flat);
+    if (!curves.tangents.empty())
+      array(std::exchange(curves.tangents, {}), "tangents", curves.width, form, i, "curves");
+    text_.close('}');
+  }
+
+  // The option limit puts the limits in the place of the refined values. Takes them out of the answer, so
+  // that they are freed once written.
+  std::vector<Real> chosen(std::vector<Real>& values, std::vector<Real>& limits) {
+    const bool limit = request_.options.limit && !limits.empty();
+    std::vector<Real> taken = std::exchange(limit ? limits : values, {});
+    std::vector<Real>().swap(limit ? values : limits);
+    return taken;
+  }
+
+  void word(std::string_view name, std::string_view value, bool wanted = true) {
+    if (!wanted) return;
+    text_.key(name);
+    text_.string(value);
+  }
+
+  void array(const std::vector<Real>& values, const char* name, std::size_t width, ArrayForm form,
+             std::size_t number, const char* of = "meshes") {
+    if (error_) return;
+    text_.key(name);
+    const std::size_t place = text_.tuples(std::span<const Real>(values), width, form);
+    if (place == TextWriter::kAllFinite) return;
+    error_ = Error{ErrorCode::not_finite,
+                   std::string("number ") + std::to_string(place) + " of the refined " + name +
+                       " is too large for the precision of the answer; scale the input down or take "
+                       "precision double",
+                   {},
+                   0,
+                   0};
+    const bool top = request_.single_mesh_at_top && std::string_view(of) == "meshes";
+    if (!top) error_->where = {of, std::uint64_t{number}};
+  }
+
+  const RefineRequest& request_;
+  RefineAnswer<Real> answer_;
+  TextWriter text_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer) {
+  const std::string members = envelope(request, answer);
+  return std::visit(
+      [&]<class Real>(RefineAnswer<Real>& typed) {
+        return AnswerWriter<Real>(request, std::move(typed)).write(members);
+      },
+      answer);
+}
+
+}  // namespace subdivd::proto::json

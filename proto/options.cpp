@@ -1,0 +1,323 @@
+#include "proto/options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <type_traits>
+#include <utility>
+
+#include "core/refine/split.h"
+#include "proto/suggest.h"
+
+namespace subdivd::proto {
+namespace {
+
+// Words in the order of the enumerators they stand for: the index of a word is the enumerator's value.
+constexpr std::array<std::string_view, 2> kLoopWeights = {"loop", "warren"};
+constexpr std::array<std::string_view, 3> kBoundary = {"none", "edgeOnly", "edgeAndCorner"};
+constexpr std::array<std::string_view, 6> kFaceVarying = {"none",         "cornersOnly", "cornersPlus1",
+                                                          "cornersPlus2", "boundaries",  "all"};
+constexpr std::array<std::string_view, 2> kCreaseMethod = {"uniform", "chaikin"};
+constexpr std::array<std::string_view, 2> kPrecision = {"single", "double"};
+constexpr std::array<std::string_view, 2> kWeld = {"exact", "none"};
+constexpr std::array<std::string_view, 3> kFormat = {"json", "glb", "gltf"};
+
+static_assert(kLoopWeights.size() == static_cast<std::size_t>(LoopWeights::warren) + 1);
+static_assert(kBoundary.size() == static_cast<std::size_t>(BoundaryInterpolation::edge_and_corner) + 1);
+static_assert(kFaceVarying.size() == static_cast<std::size_t>(FaceVaryingInterpolation::all) + 1);
+static_assert(kCreaseMethod.size() == static_cast<std::size_t>(CreaseMethod::chaikin) + 1);
+static_assert(kPrecision.size() == static_cast<std::size_t>(Precision::double_precision) + 1);
+static_assert(kWeld.size() == static_cast<std::size_t>(Weld::none) + 1);
+static_assert(kFormat.size() == static_cast<std::size_t>(Format::gltf) + 1);
+
+template <class T>
+struct Plain {
+  using type = T;
+};
+template <class T>
+struct Plain<std::optional<T>> {
+  using type = T;
+};
+
+template <auto member>
+void set(Options& options, std::uint64_t value) {
+  using Value = typename Plain<std::remove_reference_t<decltype(options.*member)>>::type;
+  options.*member = static_cast<Value>(value);
+}
+
+template <auto member>
+std::optional<std::uint64_t> get(const Options& options) {
+  const auto& value = options.*member;
+  if constexpr (requires { value.has_value(); }) {
+    if (!value) return std::nullopt;
+    return static_cast<std::uint64_t>(*value);
+  } else {
+    return static_cast<std::uint64_t>(value);
+  }
+}
+
+template <auto member>
+constexpr OptionSpec option(OptionKind kind, std::string_view name, std::span<const std::string_view> words,
+                            std::string_view default_value, std::string_view applies_to,
+                            std::string_view help) {
+  return {.name = name,
+          .kind = kind,
+          .words = words,
+          .maximum = kind == OptionKind::integer ? kMaxLevel : 1,
+          .default_value = default_value,
+          .applies_to = applies_to,
+          .help = help,
+          .set = set<member>,
+          .get = get<member>};
+}
+
+constexpr auto kBoolean = OptionKind::boolean;
+constexpr auto kInteger = OptionKind::integer;
+constexpr auto kWord = OptionKind::word;
+
+// clang-format off
+constexpr std::array kTable = {
+  option<&Options::level>(kInteger, "level", {}, "2", "meshes, curves, glTF",
+    "How often to refine. Every level makes four triangles of one and doubles a curve's segments. The server may allow less than the maximum."),
+  option<&Options::limit>(kBoolean, "limit", {}, "false", "meshes, curves, glTF",
+    "Move every refined point, and every vertex and faceVarying value, to where refining for ever would lead."),
+  option<&Options::normals>(kBoolean, "normals", {}, "false", "meshes, curves, glTF",
+    "Add unit normals of the limit surface, one per refined point; curves get tangents instead."),
+  option<&Options::verify>(kBoolean, "verify", {}, "false", "meshes, curves, glTF",
+    "Attach the report of the comparison with OpenSubdiv."),
+  option<&Options::triangulate>(kBoolean, "triangulate", {}, "false", "meshes",
+    "Split faces of more than three vertices into fans from their first vertex instead of refusing them."),
+  option<&Options::loop_weights>(kWord, "loopWeights", kLoopWeights, "loop", "meshes, glTF",
+    "Weights of the smooth vertex point: Loop 1987 or Warren 1995. They agree at valences 3 and 6 only."),
+  option<&Options::interpolate_boundary>(kWord, "interpolateBoundary", kBoundary, "", "meshes, glTF",
+    "What happens where the surface ends; set here it overrides every mesh of the body. Default: the mesh's own, edgeAndCorner where it has none."),
+  option<&Options::face_varying_linear_interpolation>(kWord, "faceVaryingLinearInterpolation", kFaceVarying, "", "meshes, glTF",
+    "Which parts of the borders of faceVarying primvars stay linear; set here it overrides every mesh of the body. Default: the mesh's own, cornersPlus1 where it has none."),
+  option<&Options::crease_method>(kWord, "creaseMethod", kCreaseMethod, "uniform", "meshes",
+    "How the sharpness of semi-sharp creases decays from level to level."),
+  option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, glTF",
+    "Floating-point type of the computation and of the numbers in a JSON answer. Default: double for JSON answers, single for glTF answers."),
+  option<&Options::weld>(kWord, "weld", kWeld, "exact", "glTF",
+    "exact: vertices of one glTF mesh with bit-identical positions are one point, so seams cannot crack; none: the indices alone decide."),
+  option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, glTF",
+    "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body."),
+};
+// clang-format on
+
+constexpr auto kNames = [] {
+  std::array<std::string_view, kTable.size()> names;
+  for (std::size_t i = 0; i < kTable.size(); ++i) names[i] = kTable[i].name;
+  return names;
+}();
+
+Error refusal(ErrorCode code, const OptionSpec& spec, std::string_view got, const Path& where) {
+  std::string message =
+      std::string(spec.name) + " is " + std::string(got) + "; it must be " + valid_values(spec);
+  return {code, std::move(message), where, 0, 0};
+}
+
+Result<void> set_number(Options& options, const OptionSpec& spec, double number, std::string_view got,
+                        const Path& where) {
+  if (number != std::floor(number)) return refusal(ErrorCode::wrong_type, spec, got, where);
+  if (number < 0) return refusal(ErrorCode::out_of_range, spec, got, where);
+  if (number > spec.maximum) {
+    Error error = refusal(ErrorCode::too_large, spec, got, where);
+    error.predicted = number < 1e18 ? static_cast<Count>(number) : std::numeric_limits<Count>::max();
+    error.allowed = spec.maximum;
+    return error;
+  }
+  spec.set(options, static_cast<std::uint64_t>(number));
+  return {};
+}
+
+Result<void> set_word(Options& options, const OptionSpec& spec, std::string_view word, const Path& where) {
+  const auto found = std::find(spec.words.begin(), spec.words.end(), word);
+  if (found == spec.words.end())
+    return Error{ErrorCode::bad_enum, std::string(spec.name) + " is " + in_quotes(word) + hint(word, spec.words),
+                 where, 0, 0};
+  spec.set(options, static_cast<std::uint64_t>(found - spec.words.begin()));
+  return {};
+}
+
+Error unknown(std::string_view name, const Path& where) {
+  return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, kNames), where, 0, 0};
+}
+
+Path parameter(std::string_view name) { return {std::string("?") + std::string(name)}; }
+
+// The query's parameter if the query sets the option, otherwise the body's member.
+Path blame(std::string_view name, const QueryParameters& query) {
+  for (const auto& [parameter_name, value] : query)
+    if (parameter_name == name) return parameter(name);
+  return {"options", std::string(name)};
+}
+
+nlohmann::ordered_json json_value(const OptionSpec& spec, std::uint64_t value) {
+  switch (spec.kind) {
+    case OptionKind::boolean:
+      return value != 0;
+    case OptionKind::integer:
+      return value;
+    case OptionKind::word:
+      return std::string(spec.words[static_cast<std::size_t>(value)]);
+  }
+  return nullptr;
+}
+
+nlohmann::ordered_json value_schema(const OptionSpec& spec) {
+  nlohmann::ordered_json schema;
+  switch (spec.kind) {
+    case OptionKind::boolean:
+      schema["type"] = "boolean";
+      schema["default"] = spec.default_value == "true";
+      break;
+    case OptionKind::integer:
+      schema["type"] = "integer";
+      schema["minimum"] = 0;
+      schema["maximum"] = spec.maximum;
+      schema["default"] = std::stoi(std::string(spec.default_value));
+      break;
+    case OptionKind::word:
+      schema["type"] = "string";
+      schema["enum"] = std::vector<std::string>(spec.words.begin(), spec.words.end());
+      if (!spec.default_value.empty()) schema["default"] = spec.default_value;
+      break;
+  }
+  return schema;
+}
+
+std::string description(const OptionSpec& spec) {
+  return std::string(spec.help) + " Applies to " + std::string(spec.applies_to) + '.';
+}
+
+}  // namespace
+
+std::span<const OptionSpec> option_table() { return kTable; }
+std::span<const std::string_view> option_names() { return kNames; }
+
+const OptionSpec* find_option(std::string_view name) {
+  for (const OptionSpec& spec : kTable)
+    if (spec.name == name) return &spec;
+  return nullptr;
+}
+
+std::string valid_values(const OptionSpec& spec) {
+  switch (spec.kind) {
+    case OptionKind::boolean:
+      return "true or false";
+    case OptionKind::integer:
+      return std::string("a whole number from 0 to ") + std::to_string(spec.maximum);
+    case OptionKind::word:
+      return std::string("one of ") + either_of(spec.words);
+  }
+  return {};
+}
+
+Result<void> set_option(Options& options, std::string_view name, const OptionValue& value,
+                        const Path& where) {
+  const OptionSpec* spec = find_option(name);
+  if (spec == nullptr) return unknown(name, where);
+  if (spec->kind == OptionKind::boolean && value.boolean) {
+    spec->set(options, *value.boolean ? 1 : 0);
+    return {};
+  }
+  if (spec->kind == OptionKind::integer && value.number) {
+    const nlohmann::json number = *value.number;
+    return set_number(options, *spec, *value.number, number.dump(), where);
+  }
+  if (spec->kind == OptionKind::word && value.text) return set_word(options, *spec, *value.text, where);
+  const std::string_view got = value.boolean ? "a boolean" : value.number ? "a number" : "a string";
+  return refusal(ErrorCode::wrong_type, *spec, got, where);
+}
+
+Result<void> set_parameter(Options& options, std::string_view name, std::string_view text) {
+  const Path where = parameter(name);
+  const OptionSpec* spec = find_option(name);
+  if (spec == nullptr) return unknown(name, where);
+  switch (spec->kind) {
+    case OptionKind::boolean:
+      if (text != "true" && text != "false" && text != "1" && text != "0")
+        return Error{ErrorCode::bad_enum,
+                     std::string(name) + " is " + in_quotes(text) + "; it must be true, false, 1 or 0", where, 0,
+                     0};
+      spec->set(options, text == "true" || text == "1" ? 1 : 0);
+      return {};
+    case OptionKind::integer: {
+      double number = 0;
+      const auto [end, failure] =
+          std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
+      // Digits and a sign only: from_chars would also take "inf" and "1.".
+      const bool plain = !text.empty() && text.find_first_not_of("-0123456789") == std::string_view::npos;
+      if (!plain || failure == std::errc::invalid_argument || end != text.data() + text.size())
+        return refusal(ErrorCode::wrong_type, *spec, in_quotes(text), where);
+      if (failure == std::errc::result_out_of_range) number = text[0] == '-' ? -1.0 : 1e300;
+      return set_number(options, *spec, number, in_quotes(text), where);
+    }
+    case OptionKind::word:
+      return set_word(options, *spec, text, where);
+  }
+  return {};
+}
+
+Result<void> set_parameters(Options& options, const QueryParameters& query) {
+  std::set<std::string_view> seen;
+  for (const auto& [name, text] : query) {
+    if (Result<void> done = set_parameter(options, name, text); !done) return done;
+    if (!seen.insert(name).second)
+      return Error{ErrorCode::duplicate_field,
+                   std::string("the parameter ") + in_quotes(name) + " is given twice; give it once", parameter(name), 0, 0};
+  }
+  return {};
+}
+
+Result<void> check_options(const Options& options, const Limits& limits, const QueryParameters& query) {
+  if (options.level > limits.max_level)
+    return Error{ErrorCode::too_large,
+                 std::string("level is ") + std::to_string(options.level) + "; this server allows at most " +
+                     std::to_string(limits.max_level),
+                 blame("level", query), options.level, limits.max_level};
+  if (options.verify && options.loop_weights == LoopWeights::warren)
+    return Error{ErrorCode::unsupported,
+                 "verify compares with OpenSubdiv, which knows Loop's weights only: leave out verify or take "
+                 "loopWeights loop",
+                 blame("verify", query), 0, 0};
+  return {};
+}
+
+std::string effective_options(const RefineRequest& request) {
+  Options options = request.options;
+  options.precision = answer_precision(request);
+  options.format = answer_format(request);
+  nlohmann::ordered_json echo = nlohmann::ordered_json::object();
+  for (const OptionSpec& spec : kTable)
+    if (const auto value = spec.get(options)) echo[std::string(spec.name)] = json_value(spec, *value);
+  return echo.dump();
+}
+
+std::string openapi_parameters() {
+  nlohmann::ordered_json parameters;
+  for (const OptionSpec& spec : kTable)
+    parameters[std::string(spec.name)] = {{"name", spec.name},
+                                          {"in", "query"},
+                                          {"description", description(spec)},
+                                          {"schema", value_schema(spec)}};
+  return parameters.dump(2);
+}
+
+std::string options_schema() {
+  nlohmann::ordered_json properties;
+  for (const OptionSpec& spec : kTable) {
+    nlohmann::ordered_json schema = value_schema(spec);
+    schema["description"] = description(spec);
+    properties[std::string(spec.name)] = schema;
+  }
+  return nlohmann::ordered_json{
+      {"type", "object"}, {"additionalProperties", false}, {"properties", properties}}
+      .dump(2);
+}
+
+}  // namespace subdivd::proto

@@ -1,0 +1,68 @@
+#pragma once
+// THE table of options. Query parameters, the body's `options`, the echo of effective options, the messages
+// that list valid values and the parameters of openapi.json all come from it or are tested against it.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "proto/decode.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto {
+
+enum class OptionKind { boolean, integer, word };
+
+struct OptionSpec {
+  std::string_view name;
+  OptionKind kind = OptionKind::boolean;
+  std::span<const std::string_view> words;  // of kind word: the valid ones, in the order of the enumeration
+  Index maximum = 0;                        // of kind integer: 0..maximum; Limits may allow less
+  std::string_view default_value;           // as written; empty: depends on the request, `help` says how
+  std::string_view applies_to;              // "meshes", "curves", "glTF", joined by ", "
+  std::string_view help;
+
+  // Values travel as numbers between here and Options: 0/1, the integer, the index of the word.
+  void (*set)(Options& options, std::uint64_t value) = nullptr;
+  std::optional<std::uint64_t> (*get)(const Options& options) = nullptr;  // empty: not set
+};
+
+std::span<const OptionSpec> option_table();
+std::span<const std::string_view> option_names();
+const OptionSpec* find_option(std::string_view name);  // null: no such option
+
+// "one of a, b or c", "true or false", "a whole number from 0 to 15".
+std::string valid_values(const OptionSpec& spec);
+
+// An option's value as it stands in the body: exactly one of the three is set.
+struct OptionValue {
+  std::optional<bool> boolean;
+  std::optional<double> number;
+  std::optional<std::string_view> text;
+};
+
+// Sets one option; `where` goes into the error. `set_option` takes the body's typed values, `set_parameter`
+// a query parameter's text (booleans: true, false, 1 or 0). Refusals list the valid names or values.
+Result<void> set_option(Options& options, std::string_view name, const OptionValue& value, const Path& where);
+Result<void> set_parameter(Options& options, std::string_view name, std::string_view text);
+
+// All of a query over `options`. A repeated parameter is refused: which of the two was meant?
+Result<void> set_parameters(Options& options, const QueryParameters& query);
+
+// What single values cannot tell: the level against the server's limit, options that exclude each other.
+// `query` tells whether the body or the query is to blame.
+Result<void> check_options(const Options& options, const Limits& limits, const QueryParameters& query);
+
+// The options in effect for `request`, as a JSON object. What is not set and left to the meshes is left out;
+// the text is a valid `options` member of a request.
+std::string effective_options(const RefineRequest& request);
+
+// The parameters of openapi.json's components: an object of Parameter Objects by name. `options_schema` is
+// the schema of the body's `options`.
+std::string openapi_parameters();
+std::string options_schema();
+
+}  // namespace subdivd::proto

@@ -1,0 +1,22 @@
+#pragma once
+// Between reading and refining: repairs what may be repaired, checks everything, and turns the core's places
+// into the caller's.
+
+#include <cstddef>
+#include <string>
+
+#include "core/base/result.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto {
+
+// Triangulates (when the options say so), drops degenerate faces with a warning, checks every mesh and curve.
+// Fills face_origins.
+Result<void> prepare(RefineRequest& request);
+
+// `error` about mesh or curve number `i` (`of`: "meshes" or "curves") with its place in the body: for JSON
+// /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, whose accessors are no arrays of
+// numbers to point into, the message names the mesh.
+Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i);
+
+}  // namespace subdivd::proto

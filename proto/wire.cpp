@@ -1,0 +1,31 @@
+#include "proto/wire.h"
+
+namespace subdivd::proto {
+
+Format answer_format(const RefineRequest& request) { return request.options.format.value_or(request.input); }
+
+Precision answer_precision(const RefineRequest& request) {
+  const bool json = answer_format(request) == Format::json;
+  return request.options.precision.value_or(json ? Precision::double_precision : Precision::single_precision);
+}
+
+RefineOptions mesh_options(const RefineRequest& request) {
+  const Options& options = request.options;
+  return {.level = options.level,
+          .loop_weights = options.loop_weights,
+          .crease_method = options.crease_method,
+          .limit = options.limit,
+          .normals = options.normals};
+}
+
+CurveOptions curve_options(const RefineRequest& request) {
+  const Options& options = request.options;
+  return {.level = options.level, .limit = options.limit, .tangents = options.normals};
+}
+
+Chunk Chunk::own(std::string text) {
+  auto kept = std::make_shared<const std::string>(std::move(text));
+  return {kept, std::as_bytes(std::span(*kept))};
+}
+
+}  // namespace subdivd::proto
