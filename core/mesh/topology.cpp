@@ -23,6 +23,19 @@ void group(Count item_count, Index row_count, Key key, std::vector<Index>& items
 Topology::Topology(Index vertex_count, std::vector<Index> triangles)
     : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
   number_edges();
+  connect();
+}
+
+Topology::Topology(Index vertex_count, std::vector<Index> triangles, std::vector<Index> half_edge_edges,
+                   std::vector<std::array<Index, 2>> edge_vertices)
+    : vertex_count_(vertex_count),
+      triangles_(std::move(triangles)),
+      half_edge_edges_(std::move(half_edge_edges)),
+      edge_vertices_(std::move(edge_vertices)) {
+  connect();
+}
+
+void Topology::connect() {
   const Count half_edges = triangles_.size();
   group(
       half_edges, edge_count(), [&](Index h) { return half_edge_edges_[h]; }, edge_half_edges_,

@@ -28,6 +28,11 @@ class Topology {
   // Edges are numbered in the order in which the faces, corner by corner, first run along them. Linear time,
   // but for the sorting of the edges at a vertex.
   Topology(Index vertex_count, std::vector<Index> triangles);
+  // With the edges as given: the edge of every half-edge, and every edge's ends, the lower-numbered first.
+  // Refinement needs it: two faces over the same three points refine to edges that share their ends and are
+  // not the same.
+  Topology(Index vertex_count, std::vector<Index> triangles, std::vector<Index> half_edge_edges,
+           std::vector<std::array<Index, 2>> edge_vertices);
 
   Index vertex_count() const { return vertex_count_; }
   Index edge_count() const { return static_cast<Index>(edge_vertices_.size()); }
@@ -78,6 +83,7 @@ class Topology {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
   void number_edges();
+  void connect();
   void find_non_manifold_vertices();
 
   Index vertex_count_ = 0;

@@ -25,19 +25,38 @@ std::vector<std::array<float, 2>> child_edge_sharpness(const Level& level, Creas
   return children;
 }
 
-std::vector<Index> child_triangles(const Topology& topology) {
-  std::vector<Index> triangles;
-  triangles.reserve(topology.triangles().size() * 4);
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    Index v[3], e[3];
+// Face f = (v0, v1, v2) with edge points e0, e1, e2 becomes (v0 e0 e2) (e0 v1 e1) (e2 e1 v2) (e0 e1 e2). Edge
+// e of the parent becomes 2 e (next to its lower-numbered end) and 2 e + 1; inside face f, across its corner
+// k, lies edge 2 E + 3 f + k.
+Topology child_topology(const Topology& parent) {
+  const Index vertices = parent.vertex_count(), inside = 2 * parent.edge_count();
+  std::vector<Index> triangles, half_edge_edges;
+  triangles.reserve(parent.triangles().size() * 4);
+  half_edge_edges.reserve(parent.triangles().size() * 4);
+  std::vector<std::array<Index, 2>> edge_vertices(inside + parent.triangles().size());
+  for (Index e = 0; e < parent.edge_count(); ++e)
+    for (Index end : {0, 1}) edge_vertices[2 * e + end] = {parent.edge_vertices(e)[end], vertices + e};
+  for (Index f = 0; f < parent.face_count(); ++f) {
+    Index v[3], e[3], out[3], in[3], across[3];  // out, in: halves of the edges that leave and enter corner k
     for (Index k = 0; k < 3; ++k) {
-      v[k] = topology.corner_vertex(3 * f + k);
-      e[k] = topology.vertex_count() + topology.half_edge_edge(3 * f + k);
+      const Index h = 3 * f + k, edge = parent.half_edge_edge(h),
+                  before = parent.half_edge_edge(Topology::prev(h));
+      v[k] = parent.corner_vertex(h);
+      e[k] = vertices + edge;
+      out[k] = 2 * edge + (parent.edge_vertices(edge)[0] == v[k] ? 0 : 1);
+      in[k] = 2 * before + (parent.edge_vertices(before)[0] == v[k] ? 0 : 1);
+      across[k] = inside + h;
+      edge_vertices[across[k]] = {std::min(vertices + edge, vertices + before),
+                                  std::max(vertices + edge, vertices + before)};
     }
     triangles.insert(triangles.end(),
                      {v[0], e[0], e[2], e[0], v[1], e[1], e[2], e[1], v[2], e[0], e[1], e[2]});
+    half_edge_edges.insert(half_edge_edges.end(),
+                           {out[0], across[0], in[0], in[1], out[1], across[1], across[2], in[2], out[2],
+                            across[1], across[2], across[0]});
   }
-  return triangles;
+  return Topology(vertices + parent.edge_count(), std::move(triangles), std::move(half_edge_edges),
+                  std::move(edge_vertices));
 }
 
 std::vector<GridPoint> child_corners(const std::vector<GridPoint>& corners) {
@@ -72,20 +91,11 @@ Level first_level(const Channel& channel) {
 Level next_level(const Level& level, CreaseMethod method) {
   const Topology& parent = level.topology;
   const Index vertices = parent.vertex_count();
-  Level next{Topology(vertices + parent.edge_count(), child_triangles(parent)),
-             {},
-             level.linear,
-             level.linear_borders,
-             child_corners(level.corners)};
+  Level next{child_topology(parent), {}, level.linear, level.linear_borders, child_corners(level.corners)};
   const auto children = child_edge_sharpness(level, method);
-  // An edge of the next level is half of an edge (it ends at a vertex point), or lies inside a face: smooth.
-  next.sharpness.edges.assign(next.topology.edge_count(), 0.0f);
-  for (Index e = 0; e < next.topology.edge_count(); ++e) {
-    const auto [vertex_point, edge_point] = next.topology.edge_vertices(e);
-    if (vertex_point >= vertices) continue;
-    const Index p = edge_point - vertices;
-    next.sharpness.edges[e] = children[p][parent.edge_vertices(p)[0] == vertex_point ? 0 : 1];
-  }
+  next.sharpness.edges.assign(next.topology.edge_count(), 0.0f);  // edges inside faces are smooth
+  for (Index e = 0; e < parent.edge_count(); ++e)
+    for (Index half : {0, 1}) next.sharpness.edges[2 * e + half] = children[e][half];
   next.sharpness.vertices.assign(next.topology.vertex_count(), 0.0f);
   for (Index v = 0; v < vertices; ++v) next.sharpness.vertices[v] = decay(level.sharpness.vertices[v]);
   if (level.linear_borders)

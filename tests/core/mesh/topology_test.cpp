@@ -1,0 +1,113 @@
+#include "core/mesh/topology.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/shapes/shapes.h"
+
+namespace subdivd {
+namespace {
+
+Topology of(const ControlMesh& mesh) {
+  return Topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+}
+
+TEST(Topology, numbers_edges_as_the_faces_run_along_them) {
+  const Topology topology(4, {0, 1, 2, 2, 1, 3});
+  ASSERT_EQ(topology.edge_count(), 5u);
+  EXPECT_EQ(topology.edge_vertices(0), (std::array<Index, 2>{0, 1}));
+  EXPECT_EQ(topology.edge_vertices(1), (std::array<Index, 2>{1, 2}));
+  EXPECT_EQ(topology.edge_vertices(2), (std::array<Index, 2>{0, 2}));
+  EXPECT_EQ(topology.edge_vertices(3), (std::array<Index, 2>{1, 3}));
+  EXPECT_EQ(topology.mate(1), 3u);
+  EXPECT_EQ(topology.mate(3), 1u);
+  EXPECT_EQ(topology.mate(0), kNoIndex);
+}
+
+TEST(Topology, every_relation_agrees_with_the_triangles) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const Topology topology = of(mesh);
+    Count corners = 0, half_edges = 0, ends = 0;
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      corners += topology.vertex_corners(v).size();
+      ends += topology.vertex_edges(v).size();
+      for (Index h : topology.vertex_corners(v)) ASSERT_EQ(topology.corner_vertex(h), v);
+      for (Index e : topology.vertex_edges(v)) {
+        const auto [a, b] = topology.edge_vertices(e);
+        ASSERT_TRUE(a == v || b == v);
+        ASSERT_EQ(topology.other_end(e, v), a == v ? b : a);
+      }
+    }
+    for (Index e = 0; e < topology.edge_count(); ++e) {
+      half_edges += topology.edge_half_edges(e).size();
+      const auto [a, b] = topology.edge_vertices(e);
+      ASSERT_LT(a, b);
+      for (Index h : topology.edge_half_edges(e)) {
+        const Index from = topology.corner_vertex(h), to = topology.corner_vertex(Topology::next(h));
+        ASSERT_EQ(std::min(from, to), a);
+        ASSERT_EQ(std::max(from, to), b);
+      }
+    }
+    EXPECT_EQ(corners, topology.triangles().size());
+    EXPECT_EQ(half_edges, topology.triangles().size());
+    EXPECT_EQ(ends, 2 * Count{topology.edge_count()});
+  }
+}
+
+TEST(Topology, finds_an_edge_of_three_faces) {
+  const Topology topology(5, {0, 1, 2, 1, 0, 3, 0, 1, 4});
+  EXPECT_TRUE(topology.is_non_manifold_edge(0));
+  EXPECT_TRUE(topology.is_non_manifold_vertex(0));
+  EXPECT_FALSE(topology.is_non_manifold_vertex(2));
+}
+
+TEST(Topology, finds_windings_that_clash) {
+  const Topology topology(4, {0, 1, 2, 0, 1, 3});
+  EXPECT_TRUE(topology.is_non_manifold_edge(0));
+  EXPECT_EQ(topology.mate(0), kNoIndex);
+}
+
+TEST(Topology, finds_a_bow_tie) {
+  const Topology topology(5, {0, 1, 2, 0, 3, 4});
+  EXPECT_TRUE(topology.is_non_manifold_vertex(0));
+  EXPECT_FALSE(topology.is_non_manifold_vertex(1));
+}
+
+TEST(Topology, an_unreferenced_point_has_neither_edges_nor_corners) {
+  const Topology topology(4, {0, 1, 2});
+  EXPECT_TRUE(topology.vertex_edges(3).empty());
+  EXPECT_TRUE(topology.vertex_corners(3).empty());
+  EXPECT_FALSE(topology.is_non_manifold_vertex(3));
+}
+
+TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const Topology topology = of(mesh);
+    for (Index v = 0; v < topology.vertex_count(); ++v) {
+      std::vector<Index> seen;
+      for (const Topology::Fan& fan : topology.fans(v, [](Index) { return true; })) {
+        for (std::size_t k = 0; k + 1 < fan.corners.size(); ++k)
+          ASSERT_EQ(topology.mate(Topology::prev(fan.corners[k])), fan.corners[k + 1]);
+        if (fan.closed) {
+          ASSERT_EQ(topology.mate(Topology::prev(fan.corners.back())), fan.corners.front());
+        }
+        seen.insert(seen.end(), fan.corners.begin(), fan.corners.end());
+      }
+      std::ranges::sort(seen);
+      ASSERT_TRUE(std::ranges::equal(seen, topology.vertex_corners(v)));
+    }
+  }
+}
+
+TEST(Fans, end_at_edges_that_may_not_be_passed) {
+  const Topology topology(5, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1});
+  const Index wall = topology.half_edge_edge(0);
+  const auto fans = topology.fans(0, [&](Index e) { return e != wall; });
+  ASSERT_EQ(fans.size(), 1u);
+  EXPECT_FALSE(fans[0].closed);
+  EXPECT_EQ(fans[0].corners, (std::vector<Index>{0, 3, 6, 9}));
+}
+
+}  // namespace
+}  // namespace subdivd

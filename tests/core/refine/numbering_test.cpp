@@ -1,0 +1,77 @@
+#include "core/refine/numbering.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/refine/plain.h"
+#include "core/refine/refine.h"
+#include "tests/shapes/shapes.h"
+
+namespace subdivd {
+namespace {
+
+TEST(Split, inner_points_and_triangles_are_numbered_without_gaps) {
+  for (Count n : {1, 2, 3, 4, 8, 16}) {
+    Count expected = 0;
+    for (Count j = 1; j < n; ++j)
+      for (Count i = 1; i + j < n; ++i) ASSERT_EQ(inner_index(n, i, j), expected++);
+    EXPECT_EQ(expected, inner_points(n));
+    Count triangle = 0;
+    for_each_triangle(n, [&](Count i0, Count j0, Count i1, Count j1, Count, Count) {
+      if (j0 == j1 && i1 == i0 + 1) {
+        ASSERT_EQ(upright_index(n, i0, j0), triangle);
+      }
+      ++triangle;
+    });
+    EXPECT_EQ(triangle, n * n);
+  }
+}
+
+// The plain engine makes every level's topology: the formula must count what it makes.
+TEST(Split, counts_are_those_of_refining_step_by_step) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const Topology base(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    plain::Level at = plain::first_level(base, control_sharpness(mesh, base));
+    for (Index level = 1; level <= 3; ++level) {
+      at = plain::next_level(at, CreaseMethod::uniform);
+      const LevelCounts counts =
+          refined_counts(base.vertex_count(), base.edge_count(), base.face_count(), level);
+      EXPECT_EQ(counts.vertices, at.topology.vertex_count());
+      EXPECT_EQ(counts.edges, at.topology.edge_count());
+      EXPECT_EQ(counts.triangles, at.topology.face_count());
+    }
+  }
+}
+
+TEST(Numbering, is_a_bijection_and_faces_agree_along_their_edges) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    for (Index level : {0, 1, 2, 3}) {
+      const Numbering numbering(topology, level);
+      const Count n = numbering.segment_count();
+      std::vector<std::set<std::pair<Index, Index>>> places(numbering.vertex_count());
+      for (Index f = 0; f < topology.face_count(); ++f)
+        for (Count j = 0; j <= n; ++j)
+          for (Count i = 0; i + j <= n; ++i) {
+            const Index number = numbering.vertex(f, i, j);
+            ASSERT_LT(number, places.size());
+            places[number].insert({f, static_cast<Index>(j * (n + 1) + i)});
+          }
+      Count unused = 0;
+      for (const auto& at : places) unused += at.empty();
+      Count unreferenced = 0;
+      for (Index v = 0; v < topology.vertex_count(); ++v) unreferenced += topology.vertex_corners(v).empty();
+      EXPECT_EQ(unused, unreferenced);
+      for (Index e = 0; e < topology.edge_count(); ++e)
+        for (Count k = 1; k < n; ++k)
+          EXPECT_EQ(places[topology.vertex_count() + e * (n - 1) + k - 1].size(),
+                    topology.edge_half_edges(e).size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace subdivd

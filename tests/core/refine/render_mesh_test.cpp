@@ -1,0 +1,79 @@
+#include "core/refine/render_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/refine/refine.h"
+#include "tests/shapes/build.h"
+
+namespace subdivd {
+namespace {
+
+// A tube cut along a column for rendering: the points of column 0 appear twice.
+ControlMesh cut_tube() {
+  ControlMesh mesh = shapes::tube(6, 3);
+  RenderMesh render{0,
+                    static_cast<Index>(mesh.face_count()),
+                    static_cast<Index>(mesh.point_count() + mesh.point_count() / 6),
+                    {}};
+  const std::size_t half = mesh.face_vertex_indices.size();
+  for (std::size_t h = 0; h < half; h += 3) {
+    bool last = false, first = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      last |= mesh.face_vertex_indices[h + k] % 6 == 5;
+      first |= mesh.face_vertex_indices[h + k] % 6 == 0;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = mesh.face_vertex_indices[h + k];
+      render.indices.push_back(last && first && v % 6 == 0 ? static_cast<Index>(mesh.point_count()) + v / 6
+                                                           : v);
+    }
+  }
+  mesh.render_meshes = {render};
+  return mesh;
+}
+
+TEST(RenderMesh, copies_positions_so_that_seams_cannot_crack) {
+  const ControlMesh mesh = cut_tube();
+  ASSERT_TRUE(mesh.check().ok());
+  RefineOptions options;
+  options.level = 2;
+  const auto refined = refine<float>(mesh, options, {});
+  ASSERT_TRUE(refined.ok());
+  const RefinedRenderMesh& render = refined->render_meshes[0];
+  ASSERT_EQ(render.indices.size(), refined->triangles.size());
+  // Every corner of the render mesh copies the refined vertex that stands at that corner.
+  for (std::size_t k = 0; k < render.indices.size(); ++k) {
+    const Index source = render.source_corner[render.indices[k]];
+    ASSERT_EQ(refined->triangles[source], refined->triangles[k]);
+  }
+  // The seam's refined points exist twice: its render vertices, and 3 points inside each edge between them.
+  const Count seam = mesh.point_count() / 6;
+  EXPECT_EQ(render.vertex_count, refined->points.size() / 3 + seam + 3 * (seam - 1));
+}
+
+TEST(RenderMesh, parts_take_their_own_ranges_of_triangles) {
+  ControlMesh mesh = shapes::cube();
+  mesh.render_meshes = {{0, 5, 8, {}}, {5, 12, 8, {}}};
+  const auto cut = mesh.face_vertex_indices.begin() + 15;
+  mesh.render_meshes[0].indices.assign(mesh.face_vertex_indices.begin(), cut);
+  mesh.render_meshes[1].indices.assign(cut, mesh.face_vertex_indices.end());
+  mesh.hole_indices = {1, 6};
+  RefineOptions options;
+  options.level = 1;
+  const auto refined = refine<float>(mesh, options, {});
+  EXPECT_EQ(refined->render_meshes[0].triangle_begin, 0u);
+  EXPECT_EQ(refined->render_meshes[0].triangle_end, 16u);
+  EXPECT_EQ(refined->render_meshes[1].triangle_begin, 16u);
+  EXPECT_EQ(refined->render_meshes[1].triangle_end, 40u);
+  for (const RefinedRenderMesh& render : refined->render_meshes)
+    for (Index v = 0; v < render.vertex_count; ++v)
+      if (render.source_corner[v] != kNoIndex) {
+        EXPECT_GE(render.source_corner[v], 3 * render.triangle_begin);
+        EXPECT_LT(render.source_corner[v], 3 * render.triangle_end);
+      }
+}
+
+}  // namespace
+}  // namespace subdivd

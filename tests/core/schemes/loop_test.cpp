@@ -1,0 +1,87 @@
+#include "core/schemes/loop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/schemes/all.h"
+
+namespace subdivd {
+namespace {
+
+TEST(LoopBeta, follows_loop_1987) {
+  EXPECT_NEAR((Loop{LoopWeights::loop}.beta(3)), 3.0 / 16, 1e-16);
+  EXPECT_NEAR((Loop{LoopWeights::loop}.beta(4)), (5.0 / 8 - 9.0 / 64) / 4, 1e-16);
+  EXPECT_NEAR((Loop{LoopWeights::loop}.beta(6)), 1.0 / 16, 1e-16);
+  EXPECT_NEAR((Loop{LoopWeights::loop}.beta(12)), (5.0 / 8 - std::pow(3.0 / 8 + std::sqrt(3.0) / 8, 2)) / 12,
+              1e-16);
+}
+
+TEST(LoopBeta, warren_agrees_at_valences_3_and_6_only) {
+  for (Index n : {2, 3, 4, 5, 6, 7, 8, 12, 100}) {
+    const double difference = (Loop{LoopWeights::loop}.beta(n)) - (Loop{LoopWeights::warren}.beta(n));
+    if (n == 3 || n == 6)
+      EXPECT_NEAR(difference, 0, 1e-16) << n;
+    else
+      EXPECT_GT(std::abs(difference), 1e-5) << n;
+  }
+}
+
+TEST(LoopEdge, non_manifold_faces_share_the_opposite_weight) {
+  const EdgeMask mask = Loop{}.edge_mask({4, 0, {0, 0}});
+  EXPECT_EQ(mask.end, 3.0 / 8);
+  EXPECT_EQ(mask.opposite, 1.0 / 16);
+}
+
+TEST(LoopEdge, sharpness_below_one_blends_crease_and_smooth) {
+  const EdgeMask mask = Loop{}.edge_mask({2, 0.25f, {0, 0}});
+  EXPECT_DOUBLE_EQ(mask.end, 0.25 / 2 + 0.75 * 3 / 8);
+  EXPECT_DOUBLE_EQ(mask.opposite, 0.75 / 8);
+}
+
+TEST(LoopVertex, crease_takes_its_two_ends_and_nothing_else) {
+  const std::vector<float> edges{0, 10, 0, 0, 10};
+  const VertexMask mask = Loop{}.vertex_mask({5, CreaseMethod::uniform, 0, 0, edges, edges});
+  EXPECT_EQ(mask.self, 3.0 / 4);
+  EXPECT_EQ(mask.each, 0);
+  EXPECT_EQ(mask.crease, 1.0 / 8);
+  EXPECT_EQ(mask.crease_ends[0], 1u);
+  EXPECT_EQ(mask.crease_ends[1], 4u);
+}
+
+TEST(LoopVertex, a_dart_is_smooth) {
+  const std::vector<float> dart{0, 10, 0, 0, 0}, none(5, 0.0f);
+  const VertexMask a = Loop{}.vertex_mask({5, CreaseMethod::uniform, 0, 0, dart, dart});
+  const VertexMask b = Loop{}.vertex_mask({5, CreaseMethod::uniform, 0, 0, none, none});
+  EXPECT_EQ(a.self, b.self);
+  EXPECT_EQ(a.each, b.each);
+}
+
+TEST(LoopVertex, a_corner_that_runs_out_blends_into_its_crease) {
+  const std::vector<float> edges{10, 0, 10, 0.5f}, child{10, 0, 10, 0};
+  const VertexMask mask = Loop{}.vertex_mask({4, CreaseMethod::uniform, 0, 0, edges, child});
+  EXPECT_DOUBLE_EQ(mask.self, 0.5 + 0.5 * 3 / 4);
+  EXPECT_DOUBLE_EQ(mask.crease, 0.5 / 8);
+  EXPECT_EQ(mask.crease_ends[0], 0u);
+  EXPECT_EQ(mask.crease_ends[1], 2u);
+}
+
+TEST(LoopVertex, without_faces_it_stays) {
+  EXPECT_EQ((Loop{}.vertex_mask({0, CreaseMethod::uniform, 0, 0, {}, {}}).self), 1);
+}
+
+TEST(LoopLimit, regular_masks_are_those_of_the_box_spline) {
+  const VertexMask mask = Loop{}.smooth_limit_mask(6);
+  EXPECT_NEAR(mask.self, 1.0 / 2, 1e-15);
+  EXPECT_NEAR(mask.each, 1.0 / 12, 1e-15);
+}
+
+TEST(AllSchemes, are_found_by_name_and_no_other_is) {
+  bool found = false;
+  EXPECT_TRUE(visit_scheme("loop", [&]<class S>(std::type_identity<S>) { found = std::is_same_v<S, Loop>; }));
+  EXPECT_TRUE(found);
+  EXPECT_FALSE(visit_scheme("catmullClark", [](auto) { FAIL(); }));
+}
+
+}  // namespace
+}  // namespace subdivd

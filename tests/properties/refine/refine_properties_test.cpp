@@ -1,0 +1,257 @@
+// What refinement must obey whatever the mesh: RULES of the surface as properties, over every named shape and
+// random meshes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/curves/cubic.h"
+#include "core/refine/numbering.h"
+#include "core/refine/refine.h"
+#include "tests/shapes/build.h"
+
+namespace subdivd {
+namespace {
+
+std::vector<shapes::NamedShape> all() {
+  std::vector<shapes::NamedShape> result = shapes::all_shapes();
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    result.push_back({"random_mesh " + std::to_string(seed), shapes::random_mesh(seed)});
+  return result;
+}
+
+RefinedMesh<double> refined(const ControlMesh& mesh, Index level, bool limit = false,
+                            CreaseMethod method = CreaseMethod::uniform) {
+  RefineOptions options;
+  options.level = level;
+  options.crease_method = method;
+  options.limit = options.normals = limit;
+  auto result = refine<double>(mesh, options, {});
+  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
+  return std::move(*result);
+}
+
+double extent(const ControlMesh& mesh) {
+  double largest = 0;
+  for (double x : mesh.points) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+// The limit of a vertex is the same from every level: base vertices keep their numbers. Exact up to rounding
+// for every rule, semi-sharp ones included.
+TEST(RefineProperties, the_limit_of_the_refined_is_the_limit) {
+  for (const auto& [name, mesh] : all())
+    for (CreaseMethod method : {CreaseMethod::uniform, CreaseMethod::chaikin}) {
+      SCOPED_TRACE(name);
+      const auto at0 = refined(mesh, 0, true, method), at1 = refined(mesh, 1, true, method),
+                 at3 = refined(mesh, 3, true, method);
+      const double tolerance = 2e-15 * std::max(extent(mesh), 1.0);
+      for (std::size_t k = 0; k < at0.limit_points.size(); ++k) {
+        ASSERT_NEAR(at0.limit_points[k], at1.limit_points[k], tolerance) << "vertex " << k / 3;
+        ASSERT_NEAR(at0.limit_points[k], at3.limit_points[k], tolerance) << "vertex " << k / 3;
+      }
+    }
+}
+
+// Likewise every other channel.
+TEST(RefineProperties, the_limit_of_refined_face_varying_values_is_the_limit) {
+  for (const auto& [name, mesh] : all()) {
+    SCOPED_TRACE(name);
+    const auto at0 = refined(mesh, 0, true), at2 = refined(mesh, 2, true);
+    for (std::size_t p = 0; p < mesh.primvars.size(); ++p)
+      for (std::size_t k = 0; k < at0.primvars[p].limit_values.size(); ++k)
+        ASSERT_NEAR(at0.primvars[p].limit_values[k], at2.primvars[p].limit_values[k], 1e-12)
+            << mesh.primvars[p].name << " scalar " << k;
+  }
+}
+
+// Refined points come closer to the limit by about 1/4 a level or, at high valences, by less: they do
+// approach.
+TEST(RefineProperties, refined_points_approach_the_limit) {
+  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+    SCOPED_TRACE(name);
+    auto distance = [&](Index level) {
+      const auto mesh_at = refined(mesh, level, true);
+      double largest = 0;
+      for (Count k = 0; k < 3 * mesh.point_count(); ++k)
+        largest = std::max(largest, std::abs(mesh_at.points[k] - mesh_at.limit_points[k]));
+      return largest;
+    };
+    EXPECT_LT(distance(4), 0.6 * distance(2) + 1e-15);
+  }
+}
+
+TEST(RefineProperties, affine_maps_commute_with_refinement) {
+  const double a[3][4] = {{0.9, -0.4, 0.2, 3}, {0.3, 1.1, -0.5, -2}, {-0.1, 0.6, 0.8, 5}};
+  auto mapped = [&](const std::vector<double>& points) {
+    std::vector<double> out(points.size());
+    for (std::size_t v = 0; v < points.size(); v += 3)
+      for (std::size_t r = 0; r < 3; ++r)
+        out[v + r] = a[r][0] * points[v] + a[r][1] * points[v + 1] + a[r][2] * points[v + 2] + a[r][3];
+    return out;
+  };
+  for (const auto& [name, mesh] : all()) {
+    SCOPED_TRACE(name);
+    ControlMesh moved = mesh;
+    moved.points = mapped(mesh.points);
+    const auto straight = refined(mesh, 2, true), turned = refined(moved, 2, true);
+    const auto points = mapped(straight.points), limits = mapped(straight.limit_points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      ASSERT_NEAR(points[k], turned.points[k], 1e-13 * (extent(moved) + 1));
+      ASSERT_NEAR(limits[k], turned.limit_points[k], 1e-13 * (extent(moved) + 1));
+    }
+  }
+}
+
+TEST(RefineProperties, planar_meshes_stay_planar_with_normals_across) {
+  for (const auto& shape : shapes::border_shapes()) {
+    ControlMesh mesh = shape.mesh;
+    SCOPED_TRACE(shape.name);
+    for (std::size_t k = 2; k < mesh.points.size(); k += 3) mesh.points[k] = 7;
+    const auto result = refined(mesh, 2, true);
+    for (std::size_t k = 0; k < result.points.size(); k += 3) {
+      ASSERT_NEAR(result.points[k + 2], 7, 1e-14);
+      ASSERT_NEAR(result.limit_points[k + 2], 7, 1e-14);
+      ASSERT_NEAR(std::abs(result.normals[k + 2]), result.provenance[k / 3].face == kNoIndex ? 0 : 1, 1e-12);
+    }
+  }
+}
+
+// New numbers for points and faces, faces turned by a corner: the same surface under the new numbers.
+TEST(RefineProperties, renumbering_only_renumbers) {
+  for (const auto& [name, mesh] : all()) {
+    SCOPED_TRACE(name);
+    const auto points = static_cast<Index>(mesh.point_count()), faces = static_cast<Index>(mesh.face_count());
+    auto new_point = [&](Index v) { return points - 1 - v; };
+    auto new_face = [&](Index f) { return faces - 1 - f; };
+    ControlMesh other = mesh;
+    other.primvars.clear();
+    for (Index v = 0; v < points; ++v)
+      for (Index c = 0; c < 3; ++c) other.points[3 * new_point(v) + c] = mesh.points[3 * v + c];
+    for (Index f = 0; f < faces; ++f)
+      for (Index k = 0; k < 3; ++k)
+        other.face_vertex_indices[3 * new_face(f) + (k + 1) % 3] =
+            new_point(mesh.face_vertex_indices[3 * f + k]);
+    for (auto* indices : {&other.crease_indices, &other.corner_indices})
+      for (Index& v : *indices) v = new_point(v);
+    for (Index& f : other.hole_indices) f = new_face(f);
+    const auto a = refined(mesh, 2, true), b = refined(other, 2, true);
+    const Topology topology_a(points, mesh.face_vertex_indices),
+        topology_b(points, other.face_vertex_indices);
+    const Numbering place_a(topology_a, 2), place_b(topology_b, 2);
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (Index f = 0; f < faces; ++f)
+      for (Count j = 0; j <= 4; ++j)
+        for (Count i = 0; i + j <= 4; ++i) {
+          // Corner k became corner k + 1: (i, j) with k = 4 - i - j moves on by one.
+          const Index va = place_a.vertex(f, i, j), vb = place_b.vertex(new_face(f), 4 - i - j, i);
+          for (Index c = 0; c < 3; ++c) {
+            ASSERT_NEAR(a.points[3 * va + c], b.points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
+            ASSERT_NEAR(a.limit_points[3 * va + c], b.limit_points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
+          }
+        }
+  }
+}
+
+// Without tags the refined mesh is a control mesh like any other; unless two of its edges have the same ends,
+// which a list of faces cannot say: the two sides of a pillow.
+TEST(RefineProperties, two_single_steps_are_one_double_step) {
+  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+    SCOPED_TRACE(name);
+    if (name == "closed_pillow_valence_2") continue;
+    const auto once = refined(mesh, 1), twice = refined(mesh, 2);
+    ControlMesh between;
+    between.points = once.points;
+    between.face_vertex_indices = once.triangles;
+    const auto again = refined(between, 1);
+    ASSERT_EQ(again.points.size(), twice.points.size());
+    // Numbers differ; the triangles are the same triangles.
+    auto corners = [](const RefinedMesh<double>& m) {
+      std::vector<std::array<double, 9>> rows;
+      for (std::size_t t = 0; t < m.triangles.size(); t += 3) {
+        std::array<double, 9> row{};
+        for (std::size_t k = 0; k < 9; ++k)  // rounded: sums may run in another order
+          row[k] = std::round(m.points[3 * m.triangles[t + k / 3] + k % 3] * 1e10) / 1e10 + 0.0;
+        // Start at the smallest corner, keeping the winding.
+        std::array<double, 9> best = row;
+        for (int turn = 0; turn < 2; ++turn) {
+          std::rotate(row.begin(), row.begin() + 3, row.end());
+          best = std::min(best, row);
+        }
+        rows.push_back(best);
+      }
+      std::ranges::sort(rows);
+      return rows;
+    };
+    const auto a = corners(again), b = corners(twice);
+    for (std::size_t t = 0; t < a.size(); ++t)
+      for (std::size_t k = 0; k < 9; ++k) ASSERT_NEAR(a[t][k], b[t][k], 2e-10) << "triangle " << t;
+  }
+}
+
+// A border between two pinned corners, and an infinitely sharp crease, are the pinned cubic curve.
+TEST(RefineProperties, a_border_and_a_crease_are_the_cubic_curve) {
+  const Index columns = 7;
+  ControlMesh mesh = shapes::grid(columns, 3);
+  std::vector<Index> border(columns + 1), crease(columns + 1);
+  std::iota(border.begin(), border.end(), Index{0});
+  std::iota(crease.begin(), crease.end(), 2 * (columns + 1));
+  shapes::crease(mesh, crease, kInfiniteSharpness);
+  for (Index end : {border.front(), border.back(), crease.front(), crease.back()})
+    shapes::corner(mesh, end, kInfiniteSharpness);
+  const Index level = 3;
+  const auto surface = refined(mesh, level, true);
+  const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  for (const auto& line : {border, crease}) {
+    ControlCurves curve;
+    for (Index v : line)
+      curve.points.insert(curve.points.end(), mesh.points.begin() + 3 * v, mesh.points.begin() + 3 * v + 3);
+    const auto refined_curve = refine<double>(curve, {level, true, false}, {});
+    ASSERT_TRUE(refined_curve.ok());
+    for (std::size_t k = 0; k + 1 < line.size(); ++k)
+      for (Index s = 0; s < 8; ++s) {
+        Index vertex = line[k];
+        if (s > 0)
+          for (Index e : topology.vertex_edges(line[k]))
+            if (topology.other_end(e, line[k]) == line[k + 1])
+              vertex = topology.vertex_count() + e * 7 + (line[k] < line[k + 1] ? s : 8 - s) - 1;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t at = 3 * (8 * k + s) + c;
+          EXPECT_NEAR(surface.points[3 * vertex + c], refined_curve->points[at], 1e-15);
+          EXPECT_NEAR(surface.limit_points[3 * vertex + c], refined_curve->limit_points[at], 1e-15);
+        }
+      }
+  }
+}
+
+// Same input, same bits; the order of primvars or their presence does not touch the positions.
+TEST(RefineProperties, bits_depend_on_nothing_but_the_mesh) {
+  for (const auto& [name, mesh] : all()) {
+    SCOPED_TRACE(name);
+    ControlMesh bare = mesh;
+    bare.primvars.clear();
+    const auto a = refined(mesh, 2, true), b = refined(mesh, 2, true), c = refined(bare, 2, true);
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.limit_points, b.limit_points);
+    EXPECT_EQ(a.normals, b.normals);
+    EXPECT_EQ(a.points, c.points);
+  }
+}
+
+// Normals of the limit surface do not depend on the level they are asked at.
+TEST(RefineProperties, normals_are_those_of_the_limit_surface) {
+  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+    SCOPED_TRACE(name);
+    const auto at1 = refined(mesh, 1, true), at3 = refined(mesh, 3, true);
+    for (std::size_t v = 0; v < mesh.point_count(); ++v) {
+      if (at1.provenance[v].face == kNoIndex) continue;  // an unreferenced point has no surface
+      double dot = 0;
+      for (std::size_t c = 0; c < 3; ++c) dot += at1.normals[3 * v + c] * at3.normals[3 * v + c];
+      ASSERT_GT(dot, 1 - 1e-12) << "vertex " << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace subdivd
