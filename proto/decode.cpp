@@ -18,12 +18,7 @@ Result<RefineRequest> read_gltf(std::string_view body, Format format, const Quer
                                 const Limits& limits) {
   Options options;
   if (Result<void> done = set_parameters(options, query); !done) return done.error();
-  Result<RefineRequest> request = gltf::read(body, format, options, limits);
-  if (request && answer_format(*request) == Format::json)
-    request->warnings.emplace_back(
-        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
-        "out");
-  return request;
+  return gltf::read(body, format, options, limits);
 }
 
 Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const QueryParameters& query,
@@ -121,8 +116,8 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
                                                                    : gltf::predicted_bytes(request, sizes);
   if (prediction.answer_bytes > limits.max_output_bytes)
     return Error{ErrorCode::too_large,
-                 std::string("the answer would take up to ") + std::to_string(prediction.answer_bytes) + " bytes; " +
-                     std::to_string(limits.max_output_bytes) +
+                 std::string("the answer would take up to ") + std::to_string(prediction.answer_bytes) +
+                     " bytes; " + std::to_string(limits.max_output_bytes) +
                      " are allowed: choose a lower level or a smaller input",
                  {},
                  prediction.answer_bytes,

@@ -137,14 +137,15 @@ Result<void> set_number(Options& options, const OptionSpec& spec, double number,
 Result<void> set_word(Options& options, const OptionSpec& spec, std::string_view word, const Path& where) {
   const auto found = std::find(spec.words.begin(), spec.words.end(), word);
   if (found == spec.words.end())
-    return Error{ErrorCode::bad_enum, std::string(spec.name) + " is " + in_quotes(word) + hint(word, spec.words),
-                 where, 0, 0};
+    return Error{ErrorCode::bad_enum,
+                 std::string(spec.name) + " is " + in_quotes(word) + hint(word, spec.words), where, 0, 0};
   spec.set(options, static_cast<std::uint64_t>(found - spec.words.begin()));
   return {};
 }
 
 Error unknown(std::string_view name, const Path& where) {
-  return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, kNames), where, 0, 0};
+  return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, kNames),
+          where, 0, 0};
 }
 
 Path parameter(std::string_view name) { return {std::string("?") + std::string(name)}; }
@@ -242,8 +243,8 @@ Result<void> set_parameter(Options& options, std::string_view name, std::string_
     case OptionKind::boolean:
       if (text != "true" && text != "false" && text != "1" && text != "0")
         return Error{ErrorCode::bad_enum,
-                     std::string(name) + " is " + in_quotes(text) + "; it must be true, false, 1 or 0", where, 0,
-                     0};
+                     std::string(name) + " is " + in_quotes(text) + "; it must be true, false, 1 or 0", where,
+                     0, 0};
       spec->set(options, text == "true" || text == "1" ? 1 : 0);
       return {};
     case OptionKind::integer: {
@@ -269,7 +270,8 @@ Result<void> set_parameters(Options& options, const QueryParameters& query) {
     if (Result<void> done = set_parameter(options, name, text); !done) return done;
     if (!seen.insert(name).second)
       return Error{ErrorCode::duplicate_field,
-                   std::string("the parameter ") + in_quotes(name) + " is given twice; give it once", parameter(name), 0, 0};
+                   std::string("the parameter ") + in_quotes(name) + " is given twice; give it once",
+                   parameter(name), 0, 0};
   }
   return {};
 }

@@ -12,17 +12,22 @@ namespace subdivd::proto {
 namespace {
 
 std::string label(const char* kind, std::size_t i, const std::string& name) {
-  return std::string(kind) + ' ' + std::to_string(i) + (name.empty() ? "" : std::string(" (") + in_quotes(name) + ')');
+  return std::string(kind) + ' ' + std::to_string(i) +
+         (name.empty() ? "" : std::string(" (") + in_quotes(name) + ')');
 }
 
 // "points[17]" of {"points", 17}: the core's messages say what is wrong, this says with what.
 std::string subject(const Path& where) {
   std::string text;
   for (const PathStep& step : where) {
-    if (const auto* name = std::get_if<std::string>(&step))
-      text += (text.empty() ? "" : ".") + name->substr(0, 64);
-    else
-      text += '[' + std::to_string(std::get<std::uint64_t>(step)) + ']';
+    if (const auto* name = std::get_if<std::string>(&step)) {
+      if (!text.empty()) text += '.';
+      text += name->substr(0, 64);
+    } else {
+      text += '[';
+      text += std::to_string(std::get<std::uint64_t>(step));
+      text += ']';
+    }
   }
   return text;
 }

@@ -68,12 +68,10 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
 }
 
 std::string hint(std::string_view word, std::span<const std::string_view> valid) {
-  std::string text;
+  std::string text = ";";
   if (const std::string_view near = nearest(word, valid); !near.empty())
-    text = std::string("; did you mean ") + in_quotes(near) + '?';
-  else
-    text = ";";
-  return text + " valid: " + either_of(valid);
+    text.append(" did you mean ").append(in_quotes(near)).append("?");
+  return text.append(" valid: ").append(either_of(valid));
 }
 
 }  // namespace subdivd::proto

@@ -29,7 +29,8 @@ bool fail_index(Cursor& cursor, Value value, Path below) {
   if (value.get_double().get(number)) return cursor.fail_number(value, kWholeNumber, std::move(below));
   const bool whole = number == std::floor(number);
   return cursor.fail(whole ? ErrorCode::out_of_range : ErrorCode::wrong_type,
-                     std::string("this is ") + std::string(whole ? (number < 0 ? "negative" : "too large") : "not whole") +
+                     std::string("this is ") +
+                         std::string(whole ? (number < 0 ? "negative" : "too large") : "not whole") +
                          "; it must be " + std::string(kWholeNumber),
                      std::move(below));
 }
@@ -69,9 +70,10 @@ bool read_tuple(Cursor& cursor, Value element, std::size_t i, std::string_view n
     out.values.push_back(number);
     // A first tuple without end would make every further one an error, after all the memory is used.
     if (out.values.size() - begin > kMaxCurveWidth)
-      return cursor.fail(
-          ErrorCode::wrong_length,
-          std::string("this ") + std::string(noun) + " has more than " + std::to_string(kMaxCurveWidth) + " numbers", {i});
+      return cursor.fail(ErrorCode::wrong_length,
+                         std::string("this ") + std::string(noun) + " has more than " +
+                             std::to_string(kMaxCurveWidth) + " numbers",
+                         {i});
   }
   const std::size_t length = out.values.size() - begin;
   if (out.width == 0 && length > 0) out.width = static_cast<Index>(length);
@@ -86,7 +88,8 @@ bool read_tuple(Cursor& cursor, Value element, std::size_t i, std::string_view n
 }  // namespace
 
 bool read_tuples(Cursor& cursor, Value value, Index width, Index widest, std::string_view noun, Tuples& out) {
-  const std::string right = std::string("an array of ") + std::string(noun) + "s, nested [[…], …] or flat [x, y, …]";
+  const std::string right =
+      std::string("an array of ") + std::string(noun) + "s, nested [[…], …] or flat [x, y, …]";
   array elements;
   if (!open_array(cursor, value, right, elements)) return false;
   out.width = width;
@@ -113,9 +116,9 @@ bool read_tuples(Cursor& cursor, Value value, Index width, Index widest, std::st
   if (out.form == ArrayForm::flat) {
     out.width = 0;
     if (width > 0 && out.values.size() % width != 0)
-      return cursor.fail(ErrorCode::wrong_length, std::string("the array holds ") + std::to_string(out.values.size()) +
-                                                      " numbers; it must hold a multiple of " +
-                                                      std::to_string(width));
+      return cursor.fail(ErrorCode::wrong_length,
+                         std::string("the array holds ") + std::to_string(out.values.size()) +
+                             " numbers; it must hold a multiple of " + std::to_string(width));
   }
   if (out.width > widest)
     return cursor.fail(ErrorCode::out_of_range,
@@ -189,7 +192,8 @@ bool read_sharpnesses(Cursor& cursor, Value value, std::vector<float>& out) {
       if (one.get_string().get(word)) return cursor.fail_syntax();
       if (word != "infinite")
         return cursor.fail(ErrorCode::bad_enum,
-                           std::string("this is ") + in_quotes(word) + "; it must be " + std::string(right), {i});
+                           std::string("this is ") + in_quotes(word) + "; it must be " + std::string(right),
+                           {i});
       out.push_back(kInfiniteSharpness);
     } else {
       double number = 0;

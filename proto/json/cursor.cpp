@@ -49,6 +49,14 @@ bool is_json_number(std::string_view token) {
 
 }  // namespace
 
+Cursor::Step::Step(Cursor& cursor, std::string_view member) : cursor_(cursor) {
+  cursor_.path_.emplace_back(std::in_place_type<std::string>, member);
+}
+
+Cursor::Step::Step(Cursor& cursor, std::uint64_t element) : cursor_(cursor) {
+  cursor_.path_.emplace_back(element);
+}
+
 bool Cursor::fail(ErrorCode code, std::string message, Path below) {
   if (error_) return false;
   Path where = path_;
@@ -70,9 +78,10 @@ bool Cursor::fail_syntax() {
 bool Cursor::fail_type(Value value, std::string_view right, Path below) {
   json_type type{};
   if (value.type().get(type)) return fail_syntax();
-  return fail(ErrorCode::wrong_type,
-              std::string("this is ") + std::string(name_of_type(type)) + "; it must be " + std::string(right),
-              std::move(below));
+  return fail(
+      ErrorCode::wrong_type,
+      std::string("this is ") + std::string(name_of_type(type)) + "; it must be " + std::string(right),
+      std::move(below));
 }
 
 bool Cursor::fail_number(Value value, std::string_view right, Path below) {
@@ -104,7 +113,8 @@ bool Cursor::read_word(Value value, std::span<const std::string_view> valid, std
   if (type != json_type::string) return fail_type(value, std::string("one of ") + either_of(valid));
   if (!read_string(value, text)) return false;
   const auto found = std::find(valid.begin(), valid.end(), text);
-  if (found == valid.end()) return fail(ErrorCode::bad_enum, std::string("this is ") + in_quotes(text) + hint(text, valid));
+  if (found == valid.end())
+    return fail(ErrorCode::bad_enum, std::string("this is ") + in_quotes(text) + hint(text, valid));
   out = static_cast<std::size_t>(found - valid.begin());
   return true;
 }
@@ -157,12 +167,14 @@ bool Cursor::skip(Value value, std::size_t depth_left) {
 }
 
 bool Cursor::fail_unknown(std::string_view name, std::span<const std::string_view> valid) {
-  return fail(ErrorCode::unknown_field, std::string("there is no member ") + in_quotes(name) + " here" + hint(name, valid),
+  return fail(ErrorCode::unknown_field,
+              std::string("there is no member ") + in_quotes(name) + " here" + hint(name, valid),
               {std::string(name)});
 }
 
 bool Cursor::fail_twice(std::string_view name) {
-  return fail(ErrorCode::duplicate_field, std::string("the member ") + in_quotes(name) + " is given twice; give it once",
+  return fail(ErrorCode::duplicate_field,
+              std::string("the member ") + in_quotes(name) + " is given twice; give it once",
               {std::string(name)});
 }
 

@@ -27,7 +27,8 @@ class Cursor {
   // Stands inside a member or an element as long as it lives.
   class Step {
    public:
-    Step(Cursor& cursor, PathStep step) : cursor_(cursor) { cursor_.path_.push_back(std::move(step)); }
+    Step(Cursor& cursor, std::string_view member);
+    Step(Cursor& cursor, std::uint64_t element);
     ~Step() { cursor_.path_.pop_back(); }
     Step(const Step&) = delete;
     Step& operator=(const Step&) = delete;
@@ -76,7 +77,7 @@ class Cursor {
       if (i == n) return fail_unknown(name, names_of(table));
       if (seen[i]) return fail_twice(name);
       seen.set(i);
-      const Step step(*this, std::string(name));
+      const Step step(*this, name);
       if (!(target.*table[i].read)(value)) return false;
     }
     return true;

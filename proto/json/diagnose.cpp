@@ -93,13 +93,15 @@ Error diagnose(std::string_view body) {
   if (nlohmann::json::sax_parse(body, &trail)) return error;
   if (trail.not_finite()) {
     error.code = ErrorCode::not_finite;
-    error.message = std::string("a number is beyond what a double can hold, at ") + place(body, trail.position());
+    error.message =
+        std::string("a number is beyond what a double can hold, at ") + place(body, trail.position());
     error.where = trail.path();
     return error;
   }
   const bool ends_early = trail.position() > body.size();
-  error.message = ends_early ? "the body ends in the middle of its JSON; is it cut short?"
-                             : std::string("the body stops being valid JSON at ") + place(body, trail.position());
+  error.message = ends_early
+                      ? "the body ends in the middle of its JSON; is it cut short?"
+                      : std::string("the body stops being valid JSON at ") + place(body, trail.position());
   error.where = trail.path();
   return error;
 }

@@ -82,14 +82,22 @@ void add_outputs(Json& json, const RefineAnswer<Real>& answer) {
     json["curves"][i]["output"] = {{"points", answer.curves[i].points.size() / answer.curves[i].width}};
 }
 
+Json warnings(const RefineRequest& request, bool refined) {
+  Json texts = request.warnings;
+  if (refined && request.input != Format::json && answer_format(request) == Format::json)
+    texts.push_back(
+        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left out");
+  return texts;
+}
+
 // Everything but the verification, which is already text.
 std::string assemble(const RefineRequest& request, Json numbers, const Timings& timings, bool refined,
                      const oracle::Report* verification) {
   numbers["milliseconds"] = milliseconds(request, timings, refined);
   std::string text = std::string("{\"options\":") + effective_options(request) +
                      ",\"statistics\":" + numbers.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (!request.warnings.empty())
-    text += std::string(",\"warnings\":") + Json(request.warnings).dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (const Json texts = warnings(request, refined); !texts.empty())
+    text += ",\"warnings\":" + texts.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (verification != nullptr) text += std::string(",\"verification\":") + report(*verification, &request);
   return text + '}';
 }

@@ -158,7 +158,7 @@ bool DocumentReader::options(Value value) {
       if (seen[number]) return cursor_.fail_twice(name);
       seen.set(number);
     }
-    const Cursor::Step step(cursor_, name);
+    const Cursor::Step step(cursor_, std::string_view(name));
     OptionValue given;
     std::string_view text;
     bool truth = false;

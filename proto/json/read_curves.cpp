@@ -1,10 +1,8 @@
 #include "proto/json/read_mesh.h"
+#include "proto/json/words.h"
 
 namespace subdivd::proto::json {
 namespace {
-
-constexpr std::array<std::string_view, 3> kWraps = {"nonperiodic", "periodic", "pinned"};
-static_assert(kWraps.size() == static_cast<std::size_t>(CurveWrap::pinned) + 1);
 
 class CurvesReader {
  public:
@@ -34,7 +32,7 @@ class CurvesReader {
 
   bool wrap(Value value) {
     std::size_t word = 0;
-    if (!cursor_.read_word(value, kWraps, word)) return false;
+    if (!cursor_.read_word(value, wrap_words(), word)) return false;
     out_.curves.wrap = static_cast<CurveWrap>(word);
     return true;
   }
@@ -82,8 +80,6 @@ class CurvesReader {
 };
 
 }  // namespace
-
-std::span<const std::string_view> wrap_words() { return kWraps; }
 
 bool read_curves(Cursor& cursor, Value value, CurvesRead& out) {
   simdjson::ondemand::object object;

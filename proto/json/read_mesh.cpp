@@ -121,11 +121,11 @@ bool MeshReader::primvars(Value value) {
     if (field.unescaped_key().get(key) || field.value().get(one)) return cursor_.fail_syntax();
     if (!names.emplace(key).second) return cursor_.fail_twice(key);
     if (names.size() > kMostPrimvars)
-      return cursor_.fail(ErrorCode::too_large,
-                          std::string("a mesh may have at most ") + std::to_string(kMostPrimvars) + " primvars");
-    const Cursor::Step step(cursor_, std::string(key));
+      return cursor_.fail(ErrorCode::too_large, std::string("a mesh may have at most ") +
+                                                    std::to_string(kMostPrimvars) + " primvars");
     Primvar primvar;
     primvar.name = key;
+    const Cursor::Step step(cursor_, std::string_view(primvar.name));
     ArrayForm form = ArrayForm::flat;
     if (!read_primvar(cursor_, one, primvar, form)) return false;
     result_.mesh.primvars.push_back(std::move(primvar));
@@ -155,7 +155,8 @@ bool MeshReader::finish() {
   result_.form.creases = creases_.form;
   if (mesh.face_vertex_counts.empty() && mesh.face_vertex_indices.size() % 3 != 0)
     return cursor_.fail(ErrorCode::wrong_length,
-                        std::string("faceVertexIndices holds ") + std::to_string(mesh.face_vertex_indices.size()) +
+                        std::string("faceVertexIndices holds ") +
+                            std::to_string(mesh.face_vertex_indices.size()) +
                             " indices; without faceVertexCounts all faces are triangles, so it must hold a "
                             "multiple of 3",
                         {"faceVertexIndices"});

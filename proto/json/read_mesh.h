@@ -61,9 +61,6 @@ class MeshReader {
   bool has_points_ = false, has_faces_ = false, has_counts_ = false, has_lengths_ = false;
 };
 
-// The words of `wrap`, in the order of the enumeration.
-std::span<const std::string_view> wrap_words();
-
 bool read_mesh(Cursor& cursor, Value value, MeshRead& out);
 bool read_curves(Cursor& cursor, Value value, CurvesRead& out);
 

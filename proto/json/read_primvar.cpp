@@ -1,13 +1,10 @@
 #include "proto/json/read_primvar.h"
 
 #include "proto/json/arrays.h"
+#include "proto/json/words.h"
 
 namespace subdivd::proto::json {
 namespace {
-
-constexpr std::array<std::string_view, 5> kInterpolations = {"constant", "uniform", "varying", "vertex",
-                                                             "faceVarying"};
-static_assert(kInterpolations.size() == static_cast<std::size_t>(Interpolation::face_varying) + 1);
 
 class PrimvarReader {
  public:
@@ -23,7 +20,7 @@ class PrimvarReader {
 
   bool interpolation(Value value) {
     std::size_t word = 0;
-    if (!cursor_.read_word(value, kInterpolations, word)) return false;
+    if (!cursor_.read_word(value, interpolation_words(), word)) return false;
     out_.interpolation = static_cast<Interpolation>(word);
     return true;
   }
@@ -31,9 +28,9 @@ class PrimvarReader {
   bool element_size(Value value) {
     if (!read_whole_number(cursor_, value, size_)) return false;
     if (size_ >= 1 && size_ <= kMaxElementSize) return true;
-    return cursor_.fail(
-        ErrorCode::out_of_range,
-        std::string("this is ") + std::to_string(size_) + "; it must be from 1 to " + std::to_string(kMaxElementSize));
+    return cursor_.fail(ErrorCode::out_of_range, std::string("this is ") + std::to_string(size_) +
+                                                     "; it must be from 1 to " +
+                                                     std::to_string(kMaxElementSize));
   }
 
   bool values(Value value) {
@@ -72,8 +69,6 @@ class PrimvarReader {
 };
 
 }  // namespace
-
-std::span<const std::string_view> interpolation_words() { return kInterpolations; }
 
 bool read_primvar(Cursor& cursor, Value value, Primvar& out, ArrayForm& form) {
   simdjson::ondemand::object object;

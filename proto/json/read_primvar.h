@@ -7,9 +7,6 @@
 
 namespace subdivd::proto::json {
 
-// The words of `interpolation`, in the order of the enumeration.
-std::span<const std::string_view> interpolation_words();
-
 // Fills everything but the name. `form` is that of `values`.
 bool read_primvar(Cursor& cursor, Value value, Primvar& out, ArrayForm& form);
 

@@ -1,10 +1,23 @@
 #include "proto/json/words.h"
 
-#include "proto/json/read_mesh.h"
-#include "proto/json/read_primvar.h"
+#include <array>
+
 #include "proto/options.h"
 
 namespace subdivd::proto::json {
+namespace {
+
+constexpr std::array<std::string_view, 5> kInterpolations = {"constant", "uniform", "varying", "vertex",
+                                                             "faceVarying"};
+static_assert(kInterpolations.size() == static_cast<std::size_t>(Interpolation::face_varying) + 1);
+
+constexpr std::array<std::string_view, 3> kWraps = {"nonperiodic", "periodic", "pinned"};
+static_assert(kWraps.size() == static_cast<std::size_t>(CurveWrap::pinned) + 1);
+
+}  // namespace
+
+std::span<const std::string_view> interpolation_words() { return kInterpolations; }
+std::span<const std::string_view> wrap_words() { return kWraps; }
 
 std::string_view word_of(Interpolation interpolation) {
   return interpolation_words()[static_cast<std::size_t>(interpolation)];

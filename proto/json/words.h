@@ -1,12 +1,17 @@
 #pragma once
 // The words that enumerations of the core travel as.
 
+#include <span>
 #include <string_view>
 
 #include "core/curves/control_curve.h"
 #include "core/mesh/control_mesh.h"
 
 namespace subdivd::proto::json {
+
+// Of `interpolation` and `wrap`, in the order of the enumerations; the others stand in the table of options.
+std::span<const std::string_view> interpolation_words();
+std::span<const std::string_view> wrap_words();
 
 std::string_view word_of(Interpolation interpolation);
 std::string_view word_of(BoundaryInterpolation interpolation);
