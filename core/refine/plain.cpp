@@ -88,10 +88,12 @@ Level first_level(const Channel& channel) {
   return level;
 }
 
-Level next_level(const Level& level, CreaseMethod method) {
+Result<Level> next_level(const Level& level, CreaseMethod method, const Budget& budget) {
+  if (auto stop = budget.poll()) return *stop;
   const Topology& parent = level.topology;
   const Index vertices = parent.vertex_count();
   Level next{child_topology(parent), {}, level.linear, level.linear_borders, child_corners(level.corners)};
+  if (auto stop = budget.poll()) return *stop;
   const auto children = child_edge_sharpness(level, method);
   next.sharpness.edges.assign(next.topology.edge_count(), 0.0f);  // edges inside faces are smooth
   for (Index e = 0; e < parent.edge_count(); ++e)
@@ -104,9 +106,13 @@ Level next_level(const Level& level, CreaseMethod method) {
   return next;
 }
 
+// One vertex or edge at a time; polled often enough that 50 ms are never exceeded between two polls.
+constexpr Index kPollMask = 0xffff;
+
 template <class Scheme, class Real>
-std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
-                                std::span<const Real> values, Index width) {
+Result<std::vector<Real>> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
+                                        std::span<const Real> values, Index width, bool linear,
+                                        const Budget& budget) {
   const Topology& topology = level.topology;
   const auto children = child_edge_sharpness(level, method);
   std::vector<Real> next((std::size_t{topology.vertex_count()} + topology.edge_count()) * width);
@@ -114,9 +120,12 @@ std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const
     for (Index c = 0; c < width; ++c)
       out[c] += static_cast<Real>(weight) * values[std::size_t{v} * width + c];
   };
+  linear |= level.linear;
 
   std::vector<float> sharpness, child_sharpness;
   for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if ((v & kPollMask) == 0)
+      if (auto stop = budget.poll()) return *stop;
     const auto edges = topology.vertex_edges(v);
     sharpness.clear();
     child_sharpness.clear();
@@ -126,7 +135,7 @@ std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const
     }
     const float own = level.sharpness.vertices[v];
     VertexMask mask;  // v stays
-    if (!level.linear)
+    if (!linear)
       mask = scheme.vertex_mask({static_cast<Index>(topology.vertex_corners(v).size()), method, own,
                                  decay(own), sharpness, child_sharpness});
     Real* out = next.data() + std::size_t{v} * width;
@@ -138,9 +147,11 @@ std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const
   }
 
   for (Index e = 0; e < topology.edge_count(); ++e) {
+    if ((e & kPollMask) == 0)
+      if (auto stop = budget.poll()) return *stop;
     const auto faces = topology.edge_half_edges(e);
     EdgeMask mask;  // the midpoint
-    if (!level.linear)
+    if (!linear)
       mask = scheme.edge_mask(
           {static_cast<Index>(faces.size()), level.sharpness.edges[e], {children[e][0], children[e][1]}});
     Real* out = next.data() + (std::size_t{topology.vertex_count()} + e) * width;
@@ -162,9 +173,9 @@ std::vector<Index> closed_form_numbers(const Topology& base, Index depth, const 
   return numbers;
 }
 
-template std::vector<float> refine_values(const Loop&, CreaseMethod, const Level&, std::span<const float>,
-                                          Index);
-template std::vector<double> refine_values(const Loop&, CreaseMethod, const Level&, std::span<const double>,
-                                           Index);
+template Result<std::vector<float>> refine_values(const Loop&, CreaseMethod, const Level&,
+                                                  std::span<const float>, Index, bool, const Budget&);
+template Result<std::vector<double>> refine_values(const Loop&, CreaseMethod, const Level&,
+                                                   std::span<const double>, Index, bool, const Budget&);
 
 }  // namespace subdivd::plain

@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
+#include "core/base/result.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
@@ -24,12 +26,14 @@ struct Level {
 
 Level first_level(Topology topology, Sharpness sharpness);
 Level first_level(const Channel& channel);
-Level next_level(const Level& level, CreaseMethod method);
+Result<Level> next_level(const Level& level, CreaseMethod method, const Budget& budget);
 
-// Values of the next level's vertices: width scalars each.
+// Values of the next level's vertices: width scalars each. `linear`: midpoints, whatever the level's own
+// rules.
 template <class Scheme, class Real>
-std::vector<Real> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
-                                std::span<const Real> values, Index width);
+Result<std::vector<Real>> refine_values(const Scheme& scheme, CreaseMethod method, const Level& level,
+                                        std::span<const Real> values, Index width, bool linear,
+                                        const Budget& budget);
 
 // For every vertex of `level` (after `depth` steps from `base`) its number by the closed form; unreferenced
 // points keep theirs.
