@@ -23,7 +23,7 @@ void add_face(ControlMesh& mesh, Index a, Index b, Index c) {
 // The mesh with a triangle standing on edge a-b.
 ControlMesh with_fin(ControlMesh mesh, Index a, Index b) {
   const auto tip = static_cast<Index>(mesh.point_count());
-  for (int k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
     mesh.points.push_back(1.4 * (mesh.points[3 * a + k] + mesh.points[3 * b + k]) / 2);
   add_face(mesh, a, b, tip);
   return mesh;
@@ -38,7 +38,8 @@ ControlMesh bow_tie(const ControlMesh& a, Index at, const ControlMesh& b, const 
       v = at;
     else if (v > first)
       --v;
-  both.points.erase(both.points.begin() + 3 * first, both.points.begin() + 3 * first + 3);
+  const auto from = both.points.begin() + 3 * std::ptrdiff_t{first};
+  both.points.erase(from, from + 3);
   return both;
 }
 

@@ -162,7 +162,7 @@ std::vector<NamedShape> primvar_shapes() {
 
   ControlMesh many = torus(3, 4);
   for (const Index size : {1u, 3u, 4u, 16u})
-    many.primvars.push_back(plain_primvar(many, "v" + std::to_string(size), vertex, size));
+    many.primvars.push_back(plain_primvar(many, "vertex_" + std::to_string(size), vertex, size));
   many.primvars.push_back(plain_primvar(many, "w", varying, 3));
   many.primvars.push_back(seamed(many, "st", 2, edges_along({0, 1, 2, 3, 0})));
   many.primvars.push_back(plain_primvar(many, "u", uniform, 1));
