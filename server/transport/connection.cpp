@@ -190,7 +190,7 @@ std::optional<Refusal> Connection::read_body(const BodyReader& reader, Turn& tur
 }
 
 Response Connection::answer_with_body(const BodyReader& reader, Turn& turn) {
-  Quota::Lease lease(context_.quota);
+  Quota::Lease lease(context_.memory);
   if (const auto refusal = read_body(reader, turn, lease)) return refuse_safely(turn.request, *refusal);
   turn.body_left = false;
   Response response = answer_safely(turn.request);

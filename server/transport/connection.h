@@ -46,7 +46,7 @@ struct ConnectionContext {
   const TransportOptions& options;
   Service& service;
   Watcher& watcher;
-  Quota& quota;
+  Quota& memory;
   BusyCount& busy;
   const std::atomic<bool>& draining;
   std::function<bool()> others_wait;  // are there connections without a thread?

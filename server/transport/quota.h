@@ -1,5 +1,5 @@
 #pragma once
-// A sum of bytes that many requests share: bodies that are buffered, answers that wait for slow readers.
+// Bytes of memory that all requests share: for bodies, for the work, for answers that wait for slow readers.
 
 #include <atomic>
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace subdivd::server {
 
 class Quota {
  public:
-  explicit Quota(std::uint64_t total) : free_(total) {}
+  explicit Quota(std::uint64_t total) : total_(total), free_(total) {}
   Quota(const Quota&) = delete;
   Quota& operator=(const Quota&) = delete;
 
@@ -28,12 +28,17 @@ class Quota {
       bytes_ = bytes;
       return true;
     }
+    void shrink_to(std::uint64_t bytes) {
+      if (bytes < bytes_) quota_->free_ += bytes_ - std::exchange(bytes_, bytes);
+    }
     void release() { quota_->free_ += std::exchange(bytes_, 0); }
 
    private:
     Quota* quota_;
     std::uint64_t bytes_ = 0;
   };
+
+  std::uint64_t total() const { return total_; }
 
  private:
   bool take(std::uint64_t bytes) {
@@ -43,6 +48,7 @@ class Quota {
     return false;
   }
 
+  const std::uint64_t total_;
   std::atomic<std::uint64_t> free_;
 };
 

@@ -23,14 +23,10 @@ constexpr std::chrono::milliseconds kPoll{20};
 
 class Transport::Impl {
  public:
-  Impl(TransportOptions options, Service& service)
-      : options_(std::move(options)), quota_(options_.max_buffered_bytes), context_{options_,
-                                                                                    service,
-                                                                                    watcher_,
-                                                                                    quota_,
-                                                                                    busy_,
-                                                                                    draining_,
-                                                                                    [this] { return !waiting_.empty(); }} {}
+  Impl(TransportOptions options, Service& service, Quota& memory)
+      : options_(std::move(options)),
+        context_{
+            options_, service, watcher_, memory, busy_, draining_, [this] { return !waiting_.empty(); }} {}
 
   ~Impl() { stop(); }
 
@@ -98,7 +94,6 @@ class Transport::Impl {
   }
 
   const TransportOptions options_;
-  Quota quota_;
   Watcher watcher_;
   BusyCount busy_;
   WorkQueue waiting_{kWaitingConnections};
@@ -109,8 +104,8 @@ class Transport::Impl {
   std::thread acceptor_;
 };
 
-Transport::Transport(TransportOptions options, Service& service)
-    : impl_(std::make_unique<Impl>(std::move(options), service)) {}
+Transport::Transport(TransportOptions options, Service& service, Quota& memory)
+    : impl_(std::make_unique<Impl>(std::move(options), service, memory)) {}
 Transport::~Transport() = default;
 Result<void> Transport::start() { return impl_->start(); }
 int Transport::port() const { return impl_->port(); }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "server/transport/quota.h"
 #include "server/transport/service.h"
 
 namespace subdivd::server {
@@ -18,7 +19,6 @@ struct TransportOptions {
   int port = 0;                                    // 0: any free one, see Transport::port()
   std::size_t threads = 64;                        // connections served at once; others wait their turn
   std::uint64_t max_body_bytes = 256u << 20;       // of one request
-  std::uint64_t max_buffered_bytes = 1u << 30;     // of the bodies of all requests together
   std::chrono::milliseconds read_timeout{30'000};  // see Pace (client_socket.h)
   std::chrono::milliseconds idle_timeout{2'000};   // between two requests of one connection
   std::size_t max_requests_per_connection = 1'000;
@@ -26,8 +26,8 @@ struct TransportOptions {
 
 class Transport {
  public:
-  // `service` must outlive the transport.
-  Transport(TransportOptions options, Service& service);
+  // `service` and `memory`, from which bodies are buffered, must outlive the transport.
+  Transport(TransportOptions options, Service& service, Quota& memory);
   ~Transport();  // as stop() with no patience
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;

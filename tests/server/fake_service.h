@@ -84,7 +84,6 @@ inline TransportOptions quick_options() {
   TransportOptions options;
   options.threads = 8;
   options.max_body_bytes = 100'000;
-  options.max_buffered_bytes = 1'000'000;
   options.read_timeout = std::chrono::milliseconds(400);
   options.idle_timeout = std::chrono::milliseconds(400);
   return options;
@@ -92,12 +91,15 @@ inline TransportOptions quick_options() {
 
 // Declared after the service, so that it ends first.
 struct RunningTransport {
-  explicit RunningTransport(const TransportOptions& options = quick_options()) : transport(options, service) {
+  explicit RunningTransport(const TransportOptions& options = quick_options(),
+                            std::uint64_t memory_bytes = 1'000'000)
+      : memory(memory_bytes), transport(options, service, memory) {
     const Result<void> started = transport.start();
-    if (!started) throw std::runtime_error(started.ok() ? "" : "cannot listen");
+    if (!started) throw std::runtime_error("cannot listen");
     port = transport.port();
   }
   FakeService service;
+  Quota memory;
   Transport transport;
   int port = 0;
 };

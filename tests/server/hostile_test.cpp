@@ -95,16 +95,12 @@ TEST(Hostile, refuses_a_chunk_size_that_is_no_number) {
   EXPECT_EQ(ask(server.port, kChunkedPost + "zz\r\nabc\r\n0\r\n\r\n").status, 400);
 }
 TEST(Hostile, refuses_bodies_that_would_fill_the_memory_for_all) {
-  TransportOptions options = quick_options();
-  options.max_buffered_bytes = 50'000;
-  const RunningTransport server(options);
+  const RunningTransport server(quick_options(), 50'000);
   EXPECT_EQ(ask(server.port, post("/size", std::string(60'000, 'x'))).status, 503);
   EXPECT_EQ(ask(server.port, post("/size", std::string(40'000, 'x'))).status, 200);
 }
 TEST(Hostile, gives_buffer_memory_back) {
-  TransportOptions options = quick_options();
-  options.max_buffered_bytes = 60'000;
-  const RunningTransport server(options);
+  const RunningTransport server(quick_options(), 60'000);
   for (int i = 0; i < 5; ++i)
     EXPECT_EQ(ask(server.port, post("/size", std::string(50'000, 'x'))).status, 200);
 }

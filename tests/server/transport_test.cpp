@@ -18,7 +18,8 @@ TEST(Transport, refuses_a_port_that_is_taken) {
   TransportOptions options = quick_options();
   options.port = first.port;
   FakeService service;
-  Transport second(options, service);
+  Quota memory(1);
+  Transport second(options, service, memory);
   EXPECT_FALSE(second.start().ok());
 }
 TEST(Transport, answers_a_get) {

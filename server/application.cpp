@@ -1,0 +1,122 @@
+#include "server/application.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "proto/openapi.h"
+#include "server/log.h"
+#include "server/status.h"
+#include "server/web/page.h"
+
+namespace subdivd::server {
+namespace {
+
+std::size_t concurrency(const Config& config) {
+  return config.max_concurrent > 0 ? config.max_concurrent
+                                   : std::max(1u, std::thread::hardware_concurrency());
+}
+
+Response text_response(std::string content_type, std::string text) {
+  Response response;
+  response.content_type = std::move(content_type);
+  response.body.push_back(Bytes::of(std::move(text)));
+  return response;
+}
+
+Response page_response() {
+  Response response = text_response("text/html; charset=utf-8", web_page());
+  response.headers.emplace_back("Content-Security-Policy",
+                                "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
+                                "form-action 'none'; frame-ancestors 'none'");
+  return response;
+}
+
+}  // namespace
+
+Application::Application(const Config& config, Quota& memory)
+    : config_(config),
+      admission_(concurrency(config), config.max_waiting),
+      geometry_(config, admission_, memory),
+      cors_(config.cors_origins),
+      router_(routes()) {}
+
+// THE list of what there is.
+std::vector<Route> Application::routes() {
+  return {
+      {"POST", "/v1/refine", [this](Request& request) { return geometry_.refine(request); }},
+      {"POST", "/v1/verify", [this](Request& request) { return geometry_.verify(request); }},
+      {"GET", "/livez", [](Request&) { return text_response("text/plain; charset=utf-8", "ok\n"); }},
+      {"GET", "/readyz", [this](Request&) { return readiness(); }},
+      {"GET", "/openapi.json",
+       [](Request&) { return text_response("application/json", std::string(proto::openapi_json())); }},
+      {"GET", "/", [](Request&) { return page_response(); }},
+  };
+}
+
+bool Application::prepare() {
+  ready_ = !config_.self_test || self_test();
+  return ready_;
+}
+
+Response Application::readiness() const {
+  if (draining_)
+    return problem_response(Refusal{503, "shutting_down", "this server is finishing its last requests"});
+  if (!ready_)
+    return problem_response(Refusal{503, "not_ready", "the self-test against OpenSubdiv has not passed"});
+  return text_response("text/plain; charset=utf-8", "ready\n");
+}
+
+Response Application::preflight(const Request& head) const {
+  const std::string methods = router_.allowed_methods(head.path);
+  Response response;
+  response.status = 204;
+  response.headers.emplace_back("Allow", methods);
+  cors_.answer_preflight(head, methods, response);
+  return response;
+}
+
+std::optional<Response> Application::screen_plainly(const Request& head) {
+  const std::string methods = router_.allowed_methods(head.path);
+  if (methods.empty())
+    return problem_response(
+        Refusal{404, "not_found", "there is nothing at this path; /openapi.json lists what there is"});
+  if (head.method == "OPTIONS") return preflight(head);
+  const Route* route = router_.find(head.method, head.path);
+  if (route == nullptr) {
+    Response response = problem_response(Refusal{405, "method_not_allowed", "this path answers " + methods});
+    response.headers.emplace_back("Allow", methods);
+    return response;
+  }
+  if (route->method != "POST") return std::nullopt;
+  if (draining_)
+    return problem_response(Refusal{503, "shutting_down", "this server is finishing its last requests"});
+  return screen_body(head);
+}
+
+std::optional<Response> Application::screen(const Request& head) {
+  auto response = screen_plainly(head);
+  if (response) return finished(head, *std::move(response));
+  return std::nullopt;
+}
+
+Response Application::answer(Request& request) {
+  return finished(request, router_.find(request.method, request.path)->handler(request));
+}
+
+Response Application::refuse(const Request& request, const Refusal& refusal) {
+  if (refusal.status == 500) log_error("failed: " + quoted(request.method) + " " + quoted(request.target));
+  return finished(request, problem_response(refusal));
+}
+
+Response Application::finished(const Request& request, Response response) const {
+  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  cors_.allow(request, response);
+  return response;
+}
+
+void Application::record(const Exchange& exchange) { log_info(access_line(exchange)); }
+
+}  // namespace subdivd::server

@@ -1,0 +1,49 @@
+#pragma once
+// The service behind the transport: the list of routes, and what all answers have in common.
+
+#include <atomic>
+#include <optional>
+
+#include "server/admission.h"
+#include "server/config.h"
+#include "server/cors.h"
+#include "server/handlers/geometry.h"
+#include "server/router.h"
+#include "server/transport/quota.h"
+#include "server/transport/service.h"
+
+namespace subdivd::server {
+
+class Application final : public Service {
+ public:
+  // Both must outlive the application.
+  Application(const Config& config, Quota& memory);
+
+  // Runs the self-test if the configuration wants it; /readyz tells the outcome.
+  bool prepare();
+  // From now on /readyz says no and new work is refused.
+  void begin_drain() { draining_ = true; }
+
+  std::optional<Response> screen(const Request& head) override;
+  Response answer(Request& request) override;
+  Response refuse(const Request& request, const Refusal& refusal) override;
+  void record(const Exchange& exchange) override;
+
+  const Router& router() const { return router_; }
+
+ private:
+  std::vector<Route> routes();
+  std::optional<Response> screen_plainly(const Request& head);
+  Response preflight(const Request& head) const;
+  Response readiness() const;
+  Response finished(const Request& request, Response response) const;
+
+  const Config& config_;
+  Admission admission_;
+  GeometryHandlers geometry_;
+  const Cors cors_;
+  const Router router_;
+  std::atomic<bool> ready_ = false, draining_ = false;
+};
+
+}  // namespace subdivd::server

@@ -1,0 +1,116 @@
+#include "server/handlers/compute.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/curves/cubic.h"
+#include "core/oracle/verify.h"
+#include "core/refine/refine.h"
+
+namespace subdivd::server {
+namespace {
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+RefineOptions mesh_options(const proto::Options& options) {
+  RefineOptions result;
+  result.level = options.level;
+  result.loop_weights = options.loop_weights;
+  result.crease_method = options.crease_method;
+  result.limit = options.limit;
+  result.normals = options.normals;
+  return result;
+}
+
+CurveOptions curve_options(const proto::Options& options) {
+  CurveOptions result;
+  result.level = options.level;
+  result.limit = options.limit;
+  return result;
+}
+
+// Puts the place of a part ("meshes", 3) before the place inside it.
+Error inside(Error error, const char* list, std::size_t number) {
+  error.where.insert(error.where.begin(), {PathStep(std::string(list)), PathStep(std::uint64_t{number})});
+  return error;
+}
+
+template <class Real>
+Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request, const Budget& budget) {
+  proto::RefineAnswer<Real> answer;
+  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    auto refined = refine<Real>(request.meshes[i], mesh_options(request.options), budget);
+    if (!refined) return inside(std::move(refined).error(), "meshes", i);
+    answer.meshes.push_back(std::move(refined).value());
+  }
+  for (std::size_t i = 0; i < request.curves.size(); ++i) {
+    auto refined = refine<Real>(request.curves[i], curve_options(request.options), budget);
+    if (!refined) return inside(std::move(refined).error(), "curves", i);
+    answer.curves.push_back(std::move(refined).value());
+  }
+  return answer;
+}
+
+template <class Real>
+Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Budget& budget) {
+  oracle::Report report;
+  report.oracle = oracle::oracle_name();
+  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    auto verified = oracle::verify<Real>(request.meshes[i], mesh_options(request.options), budget);
+    if (!verified) return inside(std::move(verified).error(), "meshes", i);
+    report.meshes.push_back(std::move(verified).value());
+  }
+  for (std::size_t i = 0; i < request.curves.size(); ++i) {
+    auto verified = oracle::verify<Real>(request.curves[i], curve_options(request.options), budget);
+    if (!verified) return inside(std::move(verified).error(), "curves", i);
+    report.curves.push_back(std::move(verified).value());
+  }
+  const auto passed = [](const auto& part) { return part.passed; };
+  report.passed = std::all_of(report.meshes.begin(), report.meshes.end(), passed) &&
+                  std::all_of(report.curves.begin(), report.curves.end(), passed);
+  return report;
+}
+
+template <class Real>
+Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Budget& budget,
+                                   const proto::Timings& timings) {
+  const Stopwatch refining;
+  auto answer = refine_all<Real>(request, budget);
+  if (!answer) return std::move(answer).error();
+  answer->timings = timings;
+  answer->timings.refine = refining.milliseconds();
+  if (request.options.verify) {
+    const Stopwatch verifying;
+    auto report = verify_all<Real>(request, budget);
+    if (!report) return std::move(report).error();
+    answer->verification = std::move(report).value();
+    answer->timings.verify = verifying.milliseconds();
+  }
+  return proto::AnyAnswer(std::move(answer).value());
+}
+
+}  // namespace
+
+Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
+                                            const proto::Timings& timings) {
+  return proto::answer_precision(request) == proto::Precision::single_precision
+             ? answer_in<float>(request, budget, timings)
+             : answer_in<double>(request, budget, timings);
+}
+
+Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget) {
+  return proto::answer_precision(request) == proto::Precision::single_precision
+             ? verify_all<float>(request, budget)
+             : verify_all<double>(request, budget);
+}
+
+}  // namespace subdivd::server

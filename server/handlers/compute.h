@@ -1,0 +1,19 @@
+#pragma once
+// From a decoded request to the core and back. The only place where the server calls the core.
+
+#include "core/base/budget.h"
+#include "core/base/result.h"
+#include "core/oracle/report.h"
+#include "proto/wire.h"
+
+namespace subdivd::server {
+
+// Refines every mesh and curve, in the precision of the answer; with the report when the options ask for it.
+// `timings` holds what is known so far; the answer's timings continue it.
+Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
+                                            const proto::Timings& timings);
+
+// Our core against OpenSubdiv, for every mesh and curve of the request.
+Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget);
+
+}  // namespace subdivd::server

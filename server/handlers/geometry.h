@@ -1,0 +1,42 @@
+#pragma once
+// POST /v1/refine and POST /v1/verify: decode, predict, reserve, compute, encode.
+
+#include <optional>
+#include <variant>
+
+#include "core/base/budget.h"
+#include "proto/wire.h"
+#include "server/admission.h"
+#include "server/config.h"
+#include "server/transport/message.h"
+#include "server/transport/quota.h"
+
+namespace subdivd::server {
+
+class GeometryHandlers {
+ public:
+  GeometryHandlers(const Config& config, Admission& admission, Quota& memory);
+
+  Response refine(Request& request);
+  Response verify(Request& request);
+
+ private:
+  struct Job;
+  using Begun = std::variant<Job, Response>;  // a Response: the request came no further
+
+  Begun begin(Request& request, bool verifying);
+  Budget budget_for(const Request& request) const;
+
+  const Config& config_;
+  const proto::Limits limits_;
+  Admission& admission_;
+  Quota& memory_;
+};
+
+// What a request's head already tells about its body: a refusal (415), or nothing.
+std::optional<Response> screen_body(const Request& head);
+
+// Sends a small mesh through decoding, refinement and the oracle; false when anything is not as it must be.
+bool self_test();
+
+}  // namespace subdivd::server

@@ -1,0 +1,283 @@
+// The whole service over a real socket, in this process.
+#include "server/application.h"
+
+#include <gtest/gtest.h>
+
+#include "server/transport/transport.h"
+#include "tests/server/fake_service.h"
+#include "tests/server/raw_client.h"
+
+namespace subdivd::server::testing {
+namespace {
+
+const std::string kTetrahedron =
+    R"({"points":[[1,1,1],[1,-1,-1],[-1,1,-1],[-1,-1,1]],"faceVertexIndices":[0,1,2,0,2,3,0,3,1,1,3,2]})";
+
+Config quick_config() {
+  Config config = default_config();
+  config.max_body_bytes = 1'000'000;
+  config.max_output_bytes = 10'000'000;
+  config.max_memory_bytes = 1'000'000'000;
+  config.threads = 8;
+  return config;
+}
+
+TransportOptions options_of(const Config& config) {
+  TransportOptions options;
+  options.threads = config.threads;
+  options.max_body_bytes = config.max_body_bytes;
+  return options;
+}
+
+struct RunningApplication {
+  explicit RunningApplication(Config wanted = quick_config())
+      : config(std::move(wanted)),
+        memory(config.max_memory_bytes),
+        application(config, memory),
+        transport(options_of(config), application, memory) {
+    application.prepare();
+    if (!transport.start()) throw std::runtime_error("cannot listen");
+    port = transport.port();
+  }
+  RawResponse refine(const std::string& query, const std::string& headers = {},
+                     const std::string& body = kTetrahedron) const {
+    return ask(port, post("/v1/refine" + query, body, headers));
+  }
+  const Config config;
+  Quota memory;
+  Application application;
+  Transport transport;
+  int port = 0;
+};
+
+bool holds(const RawResponse& response, const std::string& text) {
+  return response.body.find(text) != std::string::npos;
+}
+
+TEST(Application, refines_json) {
+  const RunningApplication server;
+  const RawResponse response = server.refine("?level=1");
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(response.header("content-type"), "application/json");
+  EXPECT_TRUE(holds(response, "\"points\""));
+}
+TEST(Application, takes_a_body_as_curl_sends_it) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?level=1", "Content-Type: application/x-www-form-urlencoded\r\n").status, 200);
+}
+TEST(Application, answers_glb_when_the_query_wants_it) {
+  const RunningApplication server;
+  const RawResponse response = server.refine("?level=1&format=glb", "Accept: application/json\r\n");
+  EXPECT_EQ(response.header("content-type"), "model/gltf-binary");
+  EXPECT_EQ(response.body.substr(0, 4), "glTF");
+}
+TEST(Application, answers_glb_when_accept_wants_it) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?level=1", "Accept: model/gltf-binary\r\n").body.substr(0, 4), "glTF");
+}
+TEST(Application, refines_its_own_glb) {
+  const RunningApplication server;
+  const std::string glb = server.refine("?level=1&format=glb").body;
+  const RawResponse again = server.refine("?level=1", {}, glb);
+  EXPECT_EQ(again.status, 200) << again.body;
+  EXPECT_EQ(again.header("content-type"), "model/gltf-binary");
+}
+TEST(Application, answers_406_when_accept_admits_nothing) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?level=1", "Accept: text/html\r\n").status, 406);
+}
+TEST(Application, answers_the_same_bytes_to_the_same_request_but_for_times) {
+  const RunningApplication server;
+  const std::string query = "?level=3&format=glb";
+  const std::string a = server.refine(query).body, b = server.refine(query).body;
+  const auto geometry = [](const std::string& glb) { return glb.substr(glb.size() / 2); };
+  EXPECT_EQ(geometry(a), geometry(b));
+}
+TEST(Application, verifies_against_the_oracle) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port, post("/v1/verify?level=2", kTetrahedron));
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_TRUE(holds(response, "OpenSubdiv"));
+  EXPECT_TRUE(holds(response, "\"passed\":true"));
+}
+TEST(Application, attaches_the_report_on_request) {
+  const RunningApplication server;
+  EXPECT_TRUE(holds(server.refine("?level=1&verify=true"), "OpenSubdiv"));
+}
+TEST(Application, verify_answers_json_only) {
+  const RunningApplication server;
+  EXPECT_EQ(ask(server.port, post("/v1/verify", kTetrahedron, "Accept: model/gltf-binary\r\n")).status, 406);
+}
+TEST(Application, points_at_the_fault_in_a_body) {
+  const RunningApplication server;
+  const RawResponse response =
+      server.refine("", {}, R"({"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,7]})");
+  EXPECT_EQ(response.status, 422) << response.body;
+  EXPECT_EQ(response.header("content-type"), "application/problem+json");
+  EXPECT_TRUE(holds(response, "/faceVertexIndices/2")) << response.body;
+}
+TEST(Application, answers_400_to_a_body_that_is_no_json) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("", {}, "{\"points\":").status, 400);
+}
+TEST(Application, answers_400_to_an_empty_body) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("", {}, "").status, 400);
+}
+TEST(Application, answers_400_to_an_unknown_query_parameter) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?levle=1").status, 400);
+}
+TEST(Application, answers_400_to_a_parameter_given_twice) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?level=1&level=2").status, 400);
+}
+TEST(Application, refuses_compressed_bodies) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("", "Content-Encoding: gzip\r\n", "\x1f\x8b\x08").status, 415);
+}
+TEST(Application, takes_identity_for_no_compression) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("?level=1", "Content-Encoding: identity\r\n").status, 200);
+}
+TEST(Application, refuses_foreign_content_types) {
+  const RunningApplication server;
+  EXPECT_EQ(server.refine("", "Content-Type: text/html\r\n").status, 415);
+}
+TEST(Application, refuses_a_body_over_the_limit) {
+  const RunningApplication server;
+  const RawResponse response = server.refine("", {}, std::string(1'000'001, ' '));
+  EXPECT_EQ(response.status, 413);
+  EXPECT_TRUE(holds(response, "1000001") && holds(response, "1000000"));
+}
+TEST(Application, refuses_an_answer_over_the_limit_with_numbers) {
+  Config config = quick_config();
+  config.max_output_bytes = 10'000;
+  const RunningApplication server(config);
+  const RawResponse response = server.refine("?level=6");
+  EXPECT_EQ(response.status, 422);
+  EXPECT_TRUE(holds(response, "\"predicted\"") && holds(response, "\"allowed\":10000")) << response.body;
+}
+TEST(Application, refuses_work_that_no_memory_is_set_aside_for) {
+  Config config = quick_config();
+  config.max_memory_bytes = 20'000;
+  const RunningApplication server(config);
+  const RawResponse response = server.refine("?level=6");
+  EXPECT_EQ(response.status, 422);
+  EXPECT_TRUE(holds(response, "\"allowed\":20000")) << response.body;
+}
+TEST(Application, gives_memory_back_after_each_answer) {
+  Config config = quick_config();
+  config.max_memory_bytes = 3'000'000;
+  const RunningApplication server(config);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(server.refine("?level=5").status, 200);
+}
+TEST(Application, refuses_a_level_over_the_limit) {
+  Config config = quick_config();
+  config.max_level = 3;
+  const RunningApplication server(config);
+  EXPECT_EQ(server.refine("?level=3").status, 200);
+  EXPECT_GE(server.refine("?level=4").status, 400);
+}
+TEST(Application, answers_503_when_the_time_is_up) {
+  Config config = quick_config();
+  config.deadline_seconds = 0;
+  const RunningApplication server(config);
+  const RawResponse response = server.refine("?level=6");
+  EXPECT_EQ(response.status, 503);
+  EXPECT_TRUE(holds(response, "deadline_exceeded"));
+  EXPECT_EQ(response.header("retry-after"), "1");
+}
+TEST(Application, answers_404_to_unknown_paths) {
+  const RunningApplication server;
+  EXPECT_EQ(ask(server.port, get("/nowhere")).status, 404);
+  EXPECT_EQ(ask(server.port, get("/v1/refine/")).status, 404);
+}
+TEST(Application, answers_405_with_the_allowed_methods) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port, get("/v1/refine"));
+  EXPECT_EQ(response.status, 405);
+  EXPECT_EQ(response.header("allow"), "POST, OPTIONS");
+  EXPECT_EQ(ask(server.port, post("/livez", "")).header("allow"), "GET, HEAD, OPTIONS");
+}
+TEST(Application, answers_every_get_to_head_without_a_body) {
+  const RunningApplication server;
+  for (const Route& route : server.application.router().routes()) {
+    if (route.method != "GET") continue;
+    const std::string path(route.path);
+    const RawResponse got = ask(server.port, get(path));
+    const RawResponse head = ask(server.port, "HEAD " + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(head.status, 200) << path;
+    EXPECT_EQ(head.header("content-length"), std::to_string(got.body.size())) << path;
+  }
+}
+TEST(Application, answers_a_preflight) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port,
+                                   "OPTIONS /v1/refine HTTP/1.1\r\nHost: a\r\nOrigin: https://a.example\r\n"
+                                   "Access-Control-Request-Method: POST\r\n\r\n");
+  EXPECT_EQ(response.status, 204);
+  EXPECT_EQ(response.header("access-control-allow-origin"), "*");
+  EXPECT_EQ(response.header("access-control-allow-methods"), "POST, OPTIONS");
+  EXPECT_EQ(response.headers.count("content-length"), 0u);
+}
+TEST(Application, lets_pages_read_refusals_too) {
+  const RunningApplication server;
+  for (const std::string& request : {get("/nowhere"), std::string("GET / HTTP/1.1\r\n\r\n")})
+    EXPECT_EQ(ask(server.port, request).header("access-control-allow-origin"), "*") << request;
+}
+TEST(Application, forbids_sniffing_on_every_answer) {
+  const RunningApplication server;
+  for (const std::string& request : {get("/"), get("/nowhere"), std::string("nonsense\r\n\r\n")})
+    EXPECT_EQ(ask(server.port, request).header("x-content-type-options"), "nosniff") << request;
+}
+TEST(Application, is_alive_and_ready) {
+  const RunningApplication server;
+  EXPECT_EQ(ask(server.port, get("/livez")).status, 200);
+  EXPECT_EQ(ask(server.port, get("/readyz")).status, 200);
+}
+TEST(Application, is_alive_but_not_ready_before_the_self_test) {
+  const Config config = quick_config();
+  Quota memory(config.max_memory_bytes);
+  Application application(config, memory);
+  Transport transport(options_of(config), application, memory);
+  ASSERT_TRUE(transport.start().ok());
+  EXPECT_EQ(ask(transport.port(), get("/livez")).status, 200);
+  EXPECT_EQ(ask(transport.port(), get("/readyz")).status, 503);
+}
+TEST(Application, refuses_new_work_while_it_drains) {
+  RunningApplication server;
+  server.application.begin_drain();
+  EXPECT_EQ(ask(server.port, get("/readyz")).status, 503);
+  EXPECT_EQ(server.refine("?level=1").status, 503);
+  EXPECT_EQ(ask(server.port, get("/livez")).status, 200);
+}
+TEST(Application, serves_its_description) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port, get("/openapi.json"));
+  EXPECT_EQ(response.header("content-type"), "application/json");
+  EXPECT_TRUE(holds(response, "\"openapi\""));
+}
+TEST(Application, serves_a_page_that_names_its_version) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port, get("/"));
+  EXPECT_EQ(response.header("content-type"), "text/html; charset=utf-8");
+  EXPECT_TRUE(holds(response, std::string("Version ") + SUBDIVD_VERSION));
+  EXPECT_TRUE(response.body.ends_with("</html>\n"));
+}
+TEST(Application, stops_computing_for_a_client_that_has_left) {
+  Config config = quick_config();
+  config.max_concurrent = 1;
+  config.max_output_bytes = 2'000'000'000;
+  config.max_memory_bytes = 8'000'000'000;
+  config.max_level = 15;
+  RunningApplication server(config);
+  RawClient client(server.port);
+  client.send(post("/v1/refine?level=11&format=glb", kTetrahedron));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  client.close();
+  EXPECT_EQ(server.refine("?level=1").status, 200);  // had to wait for the one place
+}
+
+}  // namespace
+}  // namespace subdivd::server::testing
