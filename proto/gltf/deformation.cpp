@@ -1,0 +1,121 @@
+#include "proto/gltf/deformation.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "proto/gltf/fields.h"
+#include "proto/gltf/references.h"
+#include "proto/gltf/semantics.h"
+
+namespace subdivd::proto::gltf {
+namespace {
+
+struct Losses {
+  bool targets = false, skinning = false;
+};
+
+Losses drop_from_mesh(Json& mesh, const Place& place, Warnings& warnings) {
+  Losses losses;
+  references::each_element(mesh, "primitives", place, [&](Json& primitive, const Place& here) {
+    if (primitive.find("targets") != nullptr) {
+      losses.targets = true;
+      primitive.erase("targets");
+      warnings.add("Morph targets are not carried over", here.pointer());
+    }
+    // A point primitive beside refined ones: skinned without a skin it would be invalid.
+    std::erase_if(*primitive.find("attributes")->object(),
+                  [](const Json::Member& member) { return semantic_of(member.name) == Semantic::skinning; });
+  });
+  mesh.erase("weights");
+  return losses;
+}
+
+// Whether an animation channel moves weights of what was dropped.
+bool is_dead(const Json& channel, const std::vector<bool>& nodes) {
+  const Json* target = channel.find("target");
+  const Json* path = target->find("path");
+  if (path == nullptr || path->string() == nullptr) return false;
+  if (*path->string() == "weights") {
+    const Json* node = target->find("node");
+    return node != nullptr && nodes[*node->integer()];
+  }
+  if (const Json* extensions = target->find("extensions"))
+    if (const Json* pointing = extensions->find("KHR_animation_pointer"))
+      if (const Json* pointer = pointing->find("pointer"); pointer != nullptr && pointer->string() != nullptr)
+        return pointer->string()->find("/weights") != std::string::npos;
+  return false;
+}
+
+// Removes samplers that no channel uses any more. `was_used`: before channels were removed.
+void drop_idle_samplers(Json& animation, const std::vector<bool>& was_used) {
+  Json::Array& samplers = *animation.find("samplers")->array();
+  Json::Array& channels = *animation.find("channels")->array();
+  std::vector<bool> used(samplers.size());
+  for (const Json& channel : channels) used[*channel.find("sampler")->integer()] = true;
+  std::vector<Count> renumbered(samplers.size());
+  Json::Array kept;
+  for (std::size_t i = 0; i < samplers.size(); ++i) {
+    renumbered[i] = kept.size();
+    if (used[i] || !was_used[i]) kept.push_back(std::move(samplers[i]));
+  }
+  samplers = std::move(kept);
+  for (Json& channel : channels)
+    channel.set("sampler", Json::number(renumbered[*channel.find("sampler")->integer()]));
+}
+
+// False when nothing is left of the animation.
+bool drop_channels(Json& animation, const std::vector<bool>& nodes) {
+  Json* found = animation.find("channels");
+  Json* samplers = animation.find("samplers");
+  if (found == nullptr || samplers == nullptr) return true;
+  Json::Array& channels = *found->array();
+  std::vector<bool> was_used(samplers->array()->size());
+  for (const Json& channel : channels) was_used[*channel.find("sampler")->integer()] = true;
+  if (std::erase_if(channels, [&](const Json& channel) { return is_dead(channel, nodes); }) == 0) return true;
+  if (channels.empty()) return false;
+  drop_idle_samplers(animation, was_used);
+  return true;
+}
+
+}  // namespace
+
+void drop_deformation(Json& document, const std::set<Index>& meshes, Warnings& warnings) {
+  const Place root, all_meshes = root.at("meshes");
+  bool targets_lost = false;
+  Json::Array& mesh_array = *document.find("meshes")->array();
+  for (const Index mesh : meshes)
+    targets_lost |= drop_from_mesh(mesh_array[mesh], all_meshes.at(mesh), warnings).targets;
+
+  std::vector<bool> affected;
+  references::each_element(document, "nodes", root, [&](Json& node, const Place& place) {
+    const Json* mesh = node.find("mesh");
+    affected.push_back(mesh != nullptr && meshes.contains(static_cast<Index>(*mesh->integer())));
+    if (!affected.back()) return;
+    if (node.find("skin") != nullptr) {
+      warnings.add("Skinning is not carried over: the node's mesh stands in its bind pose", place.pointer());
+      node.erase("skin");
+    }
+    node.erase("weights");
+  });
+
+  Json* animations = document.find("animations");
+  if (animations == nullptr || !targets_lost) return;
+  const Place all_animations = root.at("animations");
+  Count i = 0;
+  Json::Array kept;
+  for (Json& animation : *animations->array()) {
+    const Place place = all_animations.at(i++);
+    if (drop_channels(animation, affected)) {
+      kept.push_back(std::move(animation));
+    } else {
+      warnings.add("An animation of nothing but morph weights is dropped", place.pointer());
+    }
+  }
+  if (kept.empty()) {
+    document.erase("animations");
+  } else {
+    *animations = Json(std::move(kept));
+  }
+}
+
+}  // namespace subdivd::proto::gltf

@@ -1,0 +1,161 @@
+#include "proto/gltf/fresh.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "proto/gltf/gltf.h"
+#include "proto/gltf/weld.h"
+
+namespace subdivd::proto::gltf {
+namespace {
+
+constexpr Index kMaxComponents = 4;
+
+bool is_texture_coordinate(const Primvar& primvar) {
+  if (primvar.element_size != 2) return false;
+  std::string name = primvar.name;
+  while (!name.empty() && (name.back() == '_' || (name.back() >= '0' && name.back() <= '9'))) name.pop_back();
+  return name == "st" || name == "uv" || name == "map" || name == "UVMap";
+}
+
+std::string custom_name(const std::string& name) {
+  std::string custom = "_";
+  for (const char c : name) {
+    const bool lower = c >= 'a' && c <= 'z';
+    const bool plain = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    custom += lower ? static_cast<char>(c - 'a' + 'A') : plain ? c : '_';
+  }
+  return custom.size() > 1 ? custom : custom + "PRIMVAR";
+}
+
+// Names no attribute twice: a second "a-b" beside "a_b" becomes _A_B_2.
+std::string unique_name(std::string name, std::set<std::string>& taken) {
+  const std::string stem = name;
+  for (int number = 2; !taken.insert(name).second; ++number) name = stem + "_" + std::to_string(number);
+  return name;
+}
+
+bool is_expressible(const Primvar& primvar) {
+  return primvar.interpolation != Interpolation::constant &&
+         primvar.interpolation != Interpolation::uniform && primvar.element_size >= 1 &&
+         primvar.element_size <= kMaxComponents;
+}
+
+std::vector<AttributeSlot> attributes_of(const ControlMesh& mesh, std::vector<std::string>* warnings) {
+  std::vector<AttributeSlot> slots;
+  std::set<std::string> taken;
+  Count texture_coordinates = 0;
+  for (Index i = 0; i < mesh.primvars.size(); ++i) {
+    const Primvar& primvar = mesh.primvars[i];
+    if (!is_expressible(primvar)) {
+      if (warnings != nullptr)
+        warnings->push_back(
+            "primvar \"" + primvar.name + "\" of mesh \"" + mesh.name +
+            "\" is left out: glTF holds vertex, varying and faceVarying values of 1 to 4 numbers");
+      continue;
+    }
+    std::string name;
+    if (is_texture_coordinate(primvar)) {
+      name = "TEXCOORD_" + std::to_string(texture_coordinates++);
+    } else if (primvar.name == "displayColor" && primvar.element_size >= 3) {
+      name = "COLOR_0";
+    } else {
+      name = unique_name(custom_name(primvar.name), taken);
+    }
+    slots.push_back({std::move(name), i, 0, primvar.element_size});
+  }
+  return slots;
+}
+
+Json make_primitive(Count mode) {
+  Json primitive;
+  primitive.set("attributes", Json::Object());
+  primitive.set("mode", Json::number(mode));
+  return primitive;
+}
+
+// One mesh and its node; returns the mesh's number.
+Index add_mesh(Json& document, const std::string& name, Json::Array primitives) {
+  Json::Array& meshes = document.array_member("meshes");
+  const auto number = static_cast<Index>(meshes.size());
+  Json& mesh = meshes.emplace_back();
+  if (!name.empty()) mesh.set("name", name);
+  mesh.set("primitives", std::move(primitives));
+  Json& node = document.array_member("nodes").emplace_back();
+  if (!name.empty()) node.set("name", name);
+  node.set("mesh", Json::number(Count{number}));
+  return number;
+}
+
+void add_curves(const RefineRequest& request, Index index, Source& source,
+                std::vector<std::string>& warnings) {
+  const ControlCurves& curves = request.curves[index];
+  const Count mode = curves.wrap == CurveWrap::periodic ? kLineLoop : kLineStrip;
+  const Count count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
+  Json::Array primitives(count, make_primitive(mode));
+  const Index mesh = add_mesh(source.document, curves.name, std::move(primitives));
+  for (Index ordinal = 0; ordinal < count; ++ordinal)
+    source.curves.push_back({mesh, ordinal, mode, {index}, ordinal, {}});
+  if (curves.width > 3)
+    warnings.push_back("curve \"" + curves.name + "\": only the first 3 of " + std::to_string(curves.width) +
+                       " numbers per point are written, as its position");
+}
+
+}  // namespace
+
+Source make_source(const RefineRequest& request, std::vector<std::string>& warnings) {
+  Source source;
+  Json& asset = source.document.set("asset", Json());
+  asset.set("version", "2.0");
+  asset.set("generator", "subdivd " SUBDIVD_VERSION);
+  source.document.set("scene", Json::number(Count{0}));
+  Json::Array nodes;
+  for (Count i = 0; i < request.meshes.size() + request.curves.size(); ++i) nodes.push_back(Json::number(i));
+  Json scene;
+  scene.set("nodes", std::move(nodes));
+  source.document.array_member("scenes").push_back(std::move(scene));
+  for (Index i = 0; i < request.meshes.size(); ++i) {
+    const ControlMesh& mesh = request.meshes[i];
+    TrianglesSlot slot;
+    slot.mesh = add_mesh(source.document, mesh.name, {make_primitive(kTriangles)});
+    slot.control_mesh = i;
+    slot.render_mesh = mesh.render_meshes.empty() ? kNoIndex : 0;
+    slot.normals = request.options.normals;
+    slot.attributes = attributes_of(mesh, &warnings);
+    source.triangles.push_back(std::move(slot));
+  }
+  for (Index i = 0; i < request.curves.size(); ++i) add_curves(request, i, source, warnings);
+  return source;
+}
+
+SplitVertices split_vertices(const std::vector<Index>& corners,
+                             const std::vector<const std::vector<Index>*>& indices) {
+  const Count width = indices.size() + 1;
+  std::vector<double> keys(corners.size() * width);
+  for (Count corner = 0; corner < corners.size(); ++corner) {
+    keys[corner * width] = corners[corner];
+    for (Count k = 1; k < width; ++k) {
+      const std::vector<Index>& channel = *indices[k - 1];
+      keys[corner * width + k] = channel.empty() ? static_cast<double>(corner) : channel[corner];
+    }
+  }
+  Welded weld = weld_tuples(keys, width);
+  return {static_cast<Index>(weld.first.size()), std::move(weld.id), std::move(weld.first)};
+}
+
+void add_render_meshes(RefineRequest& request) {
+  for (ControlMesh& mesh : request.meshes) {
+    if (!mesh.render_meshes.empty()) continue;
+    std::vector<const std::vector<Index>*> indices;
+    for (const Primvar& primvar : mesh.primvars)
+      if (primvar.interpolation == Interpolation::face_varying && is_expressible(primvar))
+        indices.push_back(&primvar.indices);
+    if (indices.empty()) continue;
+    SplitVertices split = split_vertices(mesh.face_vertex_indices, indices);
+    mesh.render_meshes.push_back(
+        {0, static_cast<Index>(mesh.face_count()), split.vertex_count, std::move(split.indices)});
+  }
+}
+
+}  // namespace subdivd::proto::gltf

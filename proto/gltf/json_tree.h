@@ -1,0 +1,82 @@
+#pragma once
+// A JSON document as it was written: order of members kept, numbers kept as text.
+//
+// nlohmann's parser reads it, but into this tree instead of ordered_json: that one prints numbers anew (an
+// integer of 20 digits becomes a double), compares keys one by one (an object of 10^6 keys takes hours) and
+// copies whole subtrees when an object grows.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/base/result.h"
+
+namespace subdivd::proto::gltf {
+
+class Json {
+ public:
+  struct Member;
+  using Array = std::vector<Json>;
+  using Object = std::vector<Member>;
+
+  Json() = default;                                        // null
+  Json(bool value) : value_(value) {}                      // NOLINT: implicit by design
+  Json(std::string value) : value_(std::move(value)) {}    // NOLINT: implicit by design
+  Json(const char* value) : value_(std::string(value)) {}  // NOLINT: implicit by design
+  Json(Array value) : value_(std::move(value)) {}          // NOLINT: implicit by design
+  Json(Object value);                                      // NOLINT: implicit by design
+
+  static Json number(Count value);
+  static Json number(double value);   // shortest text that reads back to the same double
+  static Json raw(std::string text);  // printed as it is: the caller vouches for it
+
+  bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
+  bool is_number() const { return std::holds_alternative<Number>(value_); }
+  const bool* boolean() const { return std::get_if<bool>(&value_); }
+  const std::string* string() const { return std::get_if<std::string>(&value_); }
+  const Array* array() const { return std::get_if<Array>(&value_); }
+  Array* array() { return std::get_if<Array>(&value_); }
+  const Object* object() const { return std::get_if<Object>(&value_); }
+  Object* object() { return std::get_if<Object>(&value_); }
+  // A whole number in 0..2^53 written without fraction or exponent, as glTF demands of its integers.
+  std::optional<Count> integer() const;
+  std::optional<double> real() const;
+
+  // Of an object, linear in its members; null when absent or when this is no object.
+  const Json* find(std::string_view name) const;
+  Json* find(std::string_view name);
+  // Replaces in place or appends. Turns null into an object; any other kind is the caller's mistake.
+  Json& set(std::string_view name, Json value);
+  void erase(std::string_view name);
+  // The array member `name`, made when absent.
+  Array& array_member(std::string_view name);
+
+  void print(std::string& out) const;
+  std::string text() const;
+
+ private:
+  struct Number {
+    std::string text;
+  };
+  std::variant<std::monostate, bool, Number, std::string, Array, Object> value_;
+};
+
+struct Json::Member {
+  std::string name;
+  Json value;
+};
+
+struct JsonLimits {
+  Index max_depth = 64;
+  // A value costs up to some 100 bytes whatever its text: 8 MB of "[]," must not take 300 MB.
+  Count max_values = Count{1} << 21;
+};
+
+// Refuses malformed text, bad UTF-8, duplicate members, and what exceeds the limits (too_large).
+Result<Json> parse_json(std::string_view text, const JsonLimits& limits);
+
+}  // namespace subdivd::proto::gltf

@@ -1,0 +1,50 @@
+#pragma once
+// A glTF document that grows by arrays of data, and its last step into GLB or embedded glTF.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "proto/gltf/source.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto::gltf {
+
+enum class Target : Count { vertices = 34962, indices = 34963 };
+
+class Output {
+ public:
+  // `data`: what buffer 0 holds already, a multiple of 4 bytes.
+  Output(Json document, Chunk data);
+
+  Json& primitive(Index mesh, Index primitive);
+  // Both append one bufferView and one accessor and return the accessor's number.
+  // values: `components` per element; 1 SCALAR, 2..4 VECn.
+  Index add_floats(std::vector<float> values, Index components, bool with_bounds);
+  // Of 16 bits where `vertex_count` allows it.
+  Index add_indices(std::vector<Index> values, Index vertex_count);
+
+  Json& asset() { return *document_.find("asset"); }
+  Result<Payload> finish(Format format, const std::vector<Source::Foreign>& foreign) &&;
+
+ private:
+  Index add_accessor(Chunk data, Count count, Count component, std::string_view type, Target target,
+                     Json bounds);
+  Result<Payload> finish_glb(const std::vector<Source::Foreign>& foreign);
+  Payload finish_gltf();
+
+  Json document_;
+  std::vector<Chunk> chunks_;
+  Count size_ = 0;
+};
+
+// Upper bound of the JSON text that one add_… makes.
+inline constexpr Count kAccessorTextBytes = 512;
+inline constexpr Count index_bytes(Count indices, Count vertices) {
+  return (indices * (vertices <= 65535 ? 2 : 4) + 3) / 4 * 4;
+}
+
+}  // namespace subdivd::proto::gltf

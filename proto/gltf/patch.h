@@ -1,0 +1,18 @@
+#pragma once
+// Takes out of a document what refinement replaces or cannot carry over, leaving it valid once the slots are
+// filled.
+
+#include <vector>
+
+#include "proto/gltf/buffers.h"
+#include "proto/gltf/source.h"
+#include "proto/gltf/warnings.h"
+
+namespace subdivd::proto::gltf {
+
+// `source` has its slots and `document` as read; sets `document` and `data`.
+// Replaced accessors and bufferViews are removed and the rest renumbered, into one buffer; with an extension
+// of unknown meaning aboard nothing is removed, only appended.
+void patch(Source& source, const Buffers& buffers, Warnings& warnings);
+
+}  // namespace subdivd::proto::gltf

@@ -1,0 +1,144 @@
+#include <string>
+#include <utility>
+
+#include "proto/gltf/fresh.h"
+#include "proto/gltf/gltf.h"
+#include "proto/gltf/output.h"
+#include "proto/gltf/source.h"
+#include "proto/gltf/write_curves.h"
+#include "proto/gltf/write_triangles.h"
+
+namespace subdivd::proto::gltf {
+namespace {
+
+// The envelope under asset.extras.subdivd, with the warnings that came up while writing. Extras that are no
+// object move to a member of their own.
+Result<void> attach(Json& asset, std::string_view envelope, const std::vector<std::string>& warnings) {
+  Json ours = Json::raw(std::string(envelope));
+  if (!warnings.empty()) {
+    auto parsed = parse_json(envelope, {64, kMaxIndexCount});
+    if (!parsed || parsed->object() == nullptr)
+      return Error{ErrorCode::internal, "the envelope of the answer is no JSON object", {}, 0, 0};
+    ours = *std::move(parsed);
+    for (const std::string& warning : warnings) ours.array_member("warnings").push_back(warning);
+  }
+  Json* extras = asset.find("extras");
+  if (extras == nullptr) {
+    extras = &asset.set("extras", Json::Object());
+  } else if (extras->object() == nullptr) {
+    Json wrapped;
+    wrapped.set("original", std::move(*extras));
+    *extras = std::move(wrapped);
+  }
+  extras->set("subdivd", std::move(ours));
+  return {};
+}
+
+template <class Real>
+Result<void> fill(const Source& source, RefineAnswer<Real>& answer, Output& output, Warnings& warnings) {
+  for (const TrianglesSlot& slot : source.triangles)
+    if (auto written = write_triangles(slot, answer.meshes[slot.control_mesh], output, warnings); !written)
+      return written;
+  for (const CurvesSlot& slot : source.curves)
+    if (auto written = write_curves(slot, answer.curves, output); !written) return written;
+  return {};
+}
+
+// Upper bound of the envelope: options and statistics are short; warnings and the report are not.
+Count envelope_bytes(const RefineRequest& request) {
+  constexpr Count kDeviation = 1024, kLevel = 512, kMesh = 4096, kOptions = 8192;
+  Count bytes = kOptions;
+  for (const std::string& warning : request.warnings) bytes += 6 * warning.size() + 8;
+  const Count levels = request.options.verify ? request.options.level + 1 : 1;
+  for (const ControlMesh& mesh : request.meshes) {
+    bytes += kMesh + 6 * mesh.name.size() + levels * (kLevel + 3 * kDeviation);
+    for (const Primvar& primvar : mesh.primvars)
+      bytes += 6 * primvar.name.size() + levels * (2 * kDeviation + 12 * primvar.name.size());
+    // What fresh.cpp says of primvars that it leaves out.
+    bytes += mesh.primvars.size() * (256 + 6 * mesh.name.size());
+  }
+  for (const ControlCurves& curves : request.curves)
+    bytes += kMesh + 12 * curves.name.size() + levels * (kLevel + 2 * kDeviation);
+  return bytes;
+}
+
+Count triangles_bytes(const TrianglesSlot& slot, const ControlMesh& mesh, const RefinedSize& size,
+                      Index level) {
+  Count vertices = size.counts.vertices, faces = mesh.face_count();
+  if (slot.render_mesh != kNoIndex) {
+    const RenderMesh& render = mesh.render_meshes[slot.render_mesh];
+    vertices = size.render_vertices[slot.render_mesh];
+    faces = render.face_end - render.face_begin;
+  }
+  const Count corners = 3 * faces << (2 * level);
+  Count floats = slot.normals ? 6 : 3;
+  for (const AttributeSlot& attribute : slot.attributes) {
+    floats += attribute.components;
+    // Split while writing: at most every corner becomes a vertex.
+    if (slot.render_mesh == kNoIndex &&
+        mesh.primvars[attribute.primvar].interpolation == Interpolation::face_varying)
+      vertices = std::max(vertices, corners);
+  }
+  vertices = std::max<Count>(vertices, 1);
+  return vertices * floats * sizeof(float) + index_bytes(std::max<Count>(corners, 3), vertices);
+}
+
+Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all, Index level) {
+  Count points = 0, segments = 0;
+  for (const Index index : slot.curves) {
+    const ControlCurves& curves = all[index];
+    const Count count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
+    for (Count ordinal = 0; ordinal < count; ++ordinal) {
+      if (slot.mode != kLines && ordinal != slot.ordinal) continue;
+      const Count controls =
+          curves.vertex_counts.empty() ? curves.point_count() : curves.vertex_counts[ordinal];
+      const Count refined = refined_point_count(curves.wrap, controls, level);
+      points += refined;
+      segments += curves.wrap == CurveWrap::periodic ? refined : refined - 1;
+    }
+  }
+  Count floats = 3;
+  for (const AttributeSlot& attribute : slot.attributes) floats += attribute.components;
+  return points * floats * sizeof(float) + (slot.mode == kLines ? index_bytes(2 * segments, points) : 0);
+}
+
+}  // namespace
+
+Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes) {
+  std::vector<std::string> warnings;
+  const Source made = request.source ? Source() : make_source(request, warnings);
+  const Source& source = request.source ? *request.source : made;
+  Count bin = source.data.size();
+  Count json = source.document.text().size() + envelope_bytes(request) + 1024;
+  for (const TrianglesSlot& slot : source.triangles) {
+    bin += triangles_bytes(slot, request.meshes[slot.control_mesh], meshes[slot.control_mesh],
+                           request.options.level);
+    json += (slot.attributes.size() + 3) * kAccessorTextBytes;
+    for (const AttributeSlot& attribute : slot.attributes) json += 6 * attribute.name.size();
+  }
+  for (const CurvesSlot& slot : source.curves) {
+    bin += curves_bytes(slot, request.curves, request.options.level);
+    json += (slot.attributes.size() + 2) * kAccessorTextBytes;
+    for (const AttributeSlot& attribute : slot.attributes) json += 6 * attribute.name.size();
+  }
+  if (answer_format(request) == Format::gltf) return json + (bin + 2) / 3 * 4;
+  for (const Source::Foreign& chunk : source.foreign) json += chunk.bytes.size() + 8;
+  return json + bin;
+}
+
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,
+                      std::string_view envelope) {
+  std::vector<std::string> sentences;
+  Source made;
+  if (!request.source) made = make_source(request, sentences);
+  const Source& source = request.source ? *request.source : made;
+  Output output(source.document, Chunk{request.source, source.data});
+  Warnings warnings;
+  const auto filled = std::visit([&](auto& real) { return fill(source, real, output, warnings); }, answer);
+  if (!filled) return filled.error();
+  for (const std::string& sentence : warnings.sentences()) sentences.push_back(sentence);
+  if (auto attached = attach(output.asset(), envelope, sentences); !attached) return attached.error();
+  return std::move(output).finish(format, source.foreign);
+}
+
+}  // namespace subdivd::proto::gltf
