@@ -1,0 +1,120 @@
+// The running daemon from outside: life cycle, CORS, and every sample through every kind of answer.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import test, { after, before } from 'node:test';
+import { Validator } from '@seriousme/openapi-schema-validator';
+import { validateGltf } from './commands.mjs';
+import { Contract } from './contract.mjs';
+import { root, startDaemon } from './daemon.mjs';
+
+const bodies = ['tests/shapes', 'proto/examples'].flatMap((folder) => readdirSync(join(root, folder))
+  .filter((name) => /\.(json|glb)$/.test(name))
+  .map((name) => ({ name, bytes: readFileSync(join(root, folder, name)), isGlb: name.endsWith('.glb') })));
+
+let daemon, contract, folder;
+before(async () => {
+  daemon = await startDaemon();
+  contract = await Contract.of(daemon.url);
+  folder = mkdtempSync(join(tmpdir(), 'subdivd-e2e-'));
+});
+after(async () => {
+  rmSync(folder, { recursive: true });
+  await daemon.stop();
+});
+
+// Posts without a Content-Type that would give the kind away, and holds the answer against the document.
+async function post(path, query, bytes) {
+  const response = await fetch(`${daemon.url}${path}?${query}`, { method: 'POST', body: bytes, headers: { 'Content-Type': 'application/octet-stream' } });
+  const answer = { path, method: 'POST', status: response.status, type: response.headers.get('content-type'), bytes: Buffer.from(await response.arrayBuffer()) };
+  assert.deepEqual(contract.faults({ ...answer, body: answer.bytes.toString() }), []);
+  return answer;
+}
+
+test('livez and readyz answer 200', async () => {
+  for (const path of ['/livez', '/readyz']) {
+    const response = await fetch(daemon.url + path);
+    assert.equal(response.status, 200);
+    assert.deepEqual(contract.faults({ path, method: 'GET', status: 200, type: response.headers.get('content-type') }), []);
+  }
+});
+
+test('the page at / is HTML', async () => {
+  const response = await fetch(daemon.url);
+  assert.match(response.headers.get('content-type'), /^text\/html/);
+  assert.match(await response.text(), /<!doctype html>/i);
+});
+
+test('the OpenAPI document is valid and the one of the sources', async () => {
+  const { valid, errors } = await new Validator().validate(structuredClone(contract.document));
+  assert.ok(valid, JSON.stringify(errors));
+  assert.deepEqual(contract.document, JSON.parse(readFileSync(join(root, 'proto/openapi.json'), 'utf8')));
+});
+
+for (const { name, bytes } of bodies) {
+  test(`${name} is refined to JSON`, async () => {
+    const { status, bytes: text } = await post('/v1/refine', 'format=json&normals=true', bytes);
+    assert.equal(status, 200, text.toString());
+  });
+
+  test(`${name} agrees with OpenSubdiv`, async () => {
+    const { status, bytes: text } = await post('/v1/verify', 'level=3&loopWeights=loop', bytes);
+    assert.equal(status, 200, text.toString());
+    assert.equal(JSON.parse(text).verification.passed, true, text.toString());
+  });
+
+  for (const format of ['glb', 'gltf'])
+    test(`${name} is refined to a ${format} that Khronos' validator calls clean`, async () => {
+      const { status, bytes: model } = await post('/v1/refine', `format=${format}&limit=true&level=2`, bytes);
+      assert.equal(status, 200, model.toString());
+      const file = join(folder, `${name}.${format}`);
+      writeFileSync(file, model);
+      const { valid, report } = validateGltf([file]);
+      assert.ok(valid, report);
+    });
+}
+
+for (const { name, bytes } of bodies.filter(({ isGlb }) => !isGlb))
+  test(`the answer to ${name} is a valid request`, async () => {
+    const first = await post('/v1/refine', 'level=1', bytes);
+    const { status, bytes: text } = await post('/v1/refine', 'level=1', first.bytes);
+    assert.equal(status, 200, text.toString());
+  });
+
+test('a refusal is a problem that points at the place', async () => {
+  const { status, bytes } = await post('/v1/refine', '', '{"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,3]}');
+  const problem = JSON.parse(bytes);
+  assert.equal(status, 422);
+  assert.equal(problem.code, 'out_of_range');
+  assert.equal(problem.errors[0].pointer, '/faceVertexIndices/2');
+});
+
+test('a page of any origin may read answers', async () => {
+  const response = await fetch(`${daemon.url}/livez`, { headers: { Origin: 'https://example.org' } });
+  assert.equal(response.headers.get('access-control-allow-origin'), '*');
+});
+
+test('a preflight allows POST with a content type', async () => {
+  const response = await fetch(`${daemon.url}/v1/refine`, {
+    method: 'OPTIONS',
+    headers: { Origin: 'https://example.org', 'Access-Control-Request-Method': 'POST', 'Access-Control-Request-Headers': 'content-type' },
+  });
+  assert.ok(response.ok);
+  assert.match(response.headers.get('access-control-allow-methods'), /POST/);
+  assert.match(response.headers.get('access-control-allow-headers'), /content-type/i);
+});
+
+test('with a list of origins others are not allowed', async () => {
+  const strict = await startDaemon(['--cors-origins', 'https://a.example']);
+  const allowed = async (origin) => (await fetch(`${strict.url}/livez`, { headers: { Origin: origin } })).headers.get('access-control-allow-origin');
+  assert.equal(await allowed('https://a.example'), 'https://a.example');
+  assert.equal(await allowed('https://b.example'), null);
+  await strict.stop();
+});
+
+for (const signal of ['SIGTERM', 'SIGINT'])
+  test(`${signal} ends the daemon with exit code 0`, async () => {
+    const other = await startDaemon();
+    assert.equal(await other.stop(signal), 0);
+  });
