@@ -26,7 +26,7 @@ bool type_of(Cursor& cursor, Value value, json_type& type) {
 // What is wrong with a number that is no index. `below` leads to it.
 bool fail_index(Cursor& cursor, Value value, Path below) {
   double number = 0;
-  if (value.get_double().get(number)) return cursor.fail_number(value, kWholeNumber, std::move(below));
+  if (!get_number(value, number)) return cursor.fail_number(value, kWholeNumber, std::move(below));
   const bool whole = number == std::floor(number);
   return cursor.fail(whole ? ErrorCode::out_of_range : ErrorCode::wrong_type,
                      std::string("this is ") +
@@ -43,10 +43,7 @@ bool get_index(Value& value, Index& out) {
     return number < kNoIndex;
   }
   double real = 0;  // 3.0 and 1e2 are whole, too
-  Value copy = value;
-  if (copy.get_double().get(real) || !(real >= 0) || real >= kNoIndex || real != std::floor(real))
-    return false;
-  value = copy;
+  if (!get_number(value, real) || !(real >= 0) || real >= kNoIndex || real != std::floor(real)) return false;
   out = static_cast<Index>(real);
   return true;
 }
@@ -61,12 +58,11 @@ bool read_tuple(Cursor& cursor, Value element, std::size_t i, std::string_view n
   if (element.get_array().get(tuple)) return cursor.fail_type(element, of_form(noun, true), {i});
   const std::size_t begin = out.values.size();
   for (auto scalar : tuple) {
+    Value value;
     double number = 0;
-    if (scalar.get_double().get(number)) {
-      Value value;
-      if (scalar.get(value)) return cursor.fail_syntax();
+    if (scalar.get(value)) return cursor.fail_syntax();
+    if (!get_number(value, number))
       return cursor.fail_number(value, "a number", {i, out.values.size() - begin});
-    }
     out.values.push_back(number);
     // A first tuple without end would make every further one an error, after all the memory is used.
     if (out.values.size() - begin > kMaxCurveWidth)
@@ -108,7 +104,7 @@ bool read_tuples(Cursor& cursor, Value value, Index width, Index widest, std::st
       if (!read_tuple(cursor, one, i, noun, out)) return false;
     } else {
       double number = 0;
-      if (one.get_double().get(number)) return cursor.fail_number(one, of_form(noun, false), {i});
+      if (!get_number(one, number)) return cursor.fail_number(one, of_form(noun, false), {i});
       out.values.push_back(number);
     }
     ++i;
@@ -197,7 +193,7 @@ bool read_sharpnesses(Cursor& cursor, Value value, std::vector<float>& out) {
       out.push_back(kInfiniteSharpness);
     } else {
       double number = 0;
-      if (one.get_double().get(number)) return cursor.fail_number(one, right, {i});
+      if (!get_number(one, number)) return cursor.fail_number(one, right, {i});
       // USD writes 1e38 for infinite; what no float can hold is no less infinite.
       out.push_back(static_cast<float>(std::clamp(number, -1e38, 1e38)));
     }

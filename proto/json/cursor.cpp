@@ -1,6 +1,9 @@
 #include "proto/json/cursor.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <system_error>
 
 namespace subdivd::proto::json {
 namespace {
@@ -47,7 +50,45 @@ bool is_json_number(std::string_view token) {
   return i == token.size() || std::string_view(" \t\r\n,]}").find(token[i]) != std::string_view::npos;
 }
 
+// Of a number that no double can hold: is it too large, not too small? Decided by where its first digit
+// stands, for 1000…e-10 and 0.000…1e10 mislead whoever looks at the exponent alone.
+bool is_too_large(std::string_view token) {
+  const std::string_view mantissa = token.substr(0, token.find_first_not_of("-0123456789."));
+  const auto first = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
+  const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  std::int64_t exponent = 0;
+  if (mantissa.size() < token.size() && (token[mantissa.size()] | 0x20) == 'e') {
+    std::string_view digits = token.substr(mantissa.size() + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const auto failure = std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec;
+    if (failure == std::errc::result_out_of_range) return !digits.starts_with('-');
+  }
+  // Before the point the first digit counts tens, behind it tenths; bodies are shorter than 2^40.
+  const std::int64_t before_point = first < point ? point - first : point + 1 - first;
+  return before_point > -exponent;
+}
+
+// The number at the beginning of a token that holds one, correctly rounded.
+bool read_number(std::string_view token, double& out) {
+  if (!is_json_number(token)) return false;
+  double number = 0;
+  const auto failure = std::from_chars(token.data(), token.data() + token.size(), number).ec;
+  if (failure == std::errc::result_out_of_range) {
+    if (is_too_large(token)) return false;
+    number = token.starts_with('-') ? -0.0 : 0.0;
+  }
+  out = number;
+  return true;
+}
+
 }  // namespace
+
+bool get_number(Value& value, double& out) {
+  constexpr std::size_t kMostTrusted = 19;  // characters, so digits too
+  const std::string_view token = value.raw_json_token();
+  if (token.size() <= kMostTrusted) return !value.get_double().get(out);
+  return read_number(token, out);
+}
 
 Cursor::Step::Step(Cursor& cursor, std::string_view member) : cursor_(cursor) {
   cursor_.path_.emplace_back(std::in_place_type<std::string>, member);
@@ -148,7 +189,7 @@ bool Cursor::skip(Value value, std::size_t depth_left) {
     }
     case json_type::number: {
       double number = 0;
-      return value.get_double().get(number) ? fail_number(value, "a finite number") : true;
+      return get_number(value, number) ? true : fail_number(value, "a finite number");
     }
     case json_type::string: {
       std::string_view text;

@@ -22,6 +22,11 @@ namespace subdivd::proto::json {
 
 using Value = simdjson::ondemand::value;
 
+// The number at `value`; false: none, or beyond a double (Cursor::fail_number explains). Numbers of 20 and
+// more digits do not go through simdjson 3.0.1: its on-demand parser reads 0.50000000000000016653…
+// as 1.8e-35.
+bool get_number(Value& value, double& out);
+
 class Cursor {
  public:
   // Stands inside a member or an element as long as it lives.

@@ -86,7 +86,8 @@ Json warnings(const RefineRequest& request, bool refined) {
   Json texts = request.warnings;
   if (refined && request.input != Format::json && answer_format(request) == Format::json)
     texts.push_back(
-        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left out");
+        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
+        "out");
   return texts;
 }
 

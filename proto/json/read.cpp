@@ -167,7 +167,7 @@ bool DocumentReader::options(Value value) {
       if (one.get_bool().get(truth)) return cursor_.fail_syntax();
       given.boolean = truth;
     } else if (type == json_type::number) {
-      if (one.get_double().get(real)) return cursor_.fail_number(one, "a number within range");
+      if (!get_number(one, real)) return cursor_.fail_number(one, "a number within range");
       given.number = real;
     } else if (type == json_type::string) {
       if (one.get_string().get(text)) return cursor_.fail_syntax();

@@ -1,0 +1,76 @@
+// JSON bodies. What is accepted is JSON and has passed check(); small requests are refined, and their answers
+// are valid requests again.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/curves/cubic.h"
+#include "core/refine/refine.h"
+#include "proto/decode.h"
+#include "proto/problem.h"
+
+namespace {
+
+using namespace subdivd;
+
+void require(bool fact) {
+  if (!fact) std::abort();
+}
+
+std::string text_of(const proto::Payload& payload) {
+  std::string text;
+  for (const proto::Chunk& chunk : payload.chunks)
+    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
+  return text;
+}
+
+// A refusal late in the work (numbers that overflow) is an answer, too.
+void refine_and_encode(const proto::RefineRequest& request, const proto::Limits& limits) {
+  proto::RefineAnswer<double> answer;
+  for (const ControlMesh& mesh : request.meshes) {
+    auto refined = refine<double>(mesh, proto::mesh_options(request), Budget{});
+    if (!refined) return;
+    answer.meshes.push_back(std::move(*refined));
+  }
+  for (const ControlCurves& curves : request.curves) {
+    auto refined = refine<double>(curves, proto::curve_options(request), Budget{});
+    if (!refined) return;
+    answer.curves.push_back(std::move(*refined));
+  }
+  const auto payload = proto::encode_refine(request, std::move(answer));
+  if (!payload) return;
+  const std::string text = text_of(*payload);
+  require(nlohmann::json::accept(text));
+  const auto again = proto::decode_refine(text, proto::BodyKind::json, {}, limits);
+  // Holes and border faces may leave nothing; the answer of nothing is no request.
+  require(again.ok() || again.error().code == ErrorCode::wrong_length ||
+          again.error().code == ErrorCode::not_a_triangle);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view body(reinterpret_cast<const char*>(data), size);
+  proto::Limits limits;
+  limits.max_level = 2;
+  limits.max_output_bytes = 1 << 20;
+  const auto request = proto::decode_refine(body, proto::BodyKind::json, {}, limits);
+  if (!request) {
+    require(request.error().code != ErrorCode::internal);
+    require(nlohmann::json::accept(proto::problem_json(proto::to_problem(request.error(), 422))));
+    return 0;
+  }
+  const bool marked = body.starts_with("\xEF\xBB\xBF");
+  require(nlohmann::json::accept(body.substr(marked ? 3 : 0)));
+  for (const ControlMesh& mesh : request->meshes) require(mesh.check().ok());
+  for (const ControlCurves& curves : request->curves) require(curves.check().ok());
+  const bool plain = request->options.format.value_or(proto::Format::json) == proto::Format::json &&
+                     !request->options.precision;
+  if (plain && proto::predict_refine(*request, limits)) refine_and_encode(*request, limits);
+  return 0;
+}
