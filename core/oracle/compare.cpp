@@ -22,6 +22,7 @@ constexpr const char* kCorner = "corners of several faces have no common tangent
 constexpr const char* kIrregularBorder =
     "Far's tangent across a border vertex of more than three faces is no eigenvector of the subdivision";
 constexpr const char* kNoNormal = "degenerate surface without a normal";
+constexpr const char* kTorn = "Far tears a value that two separate groups of faces around a point share";
 
 using Vector = std::array<double, 3>;
 
@@ -37,13 +38,13 @@ Vector cross(const Vector& a, const Vector& b) {
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Length 1 without overflow; the zero vector stays.
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }  // no overflow on the way
+
+// Length 1; the zero vector stays.
 Vector unit(Vector a) {
-  const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-  if (!(largest > 0)) return a;
-  for (double& x : a) x /= largest;
-  const double length = std::sqrt(dot(a, a));
-  for (double& x : a) x /= length;
+  const double size = length(a);
+  if (!(size > 0)) return a;
+  for (double& x : a) x /= size;
   return a;
 }
 
@@ -61,6 +62,7 @@ struct Sides {
   const FarLevel<Real>& far;
   const Correspondence& pairs;
   PointScale scale;
+  double value_tolerance = 0;  // of primvars, and of positions near the origin
 
   Tally tally(std::string quantity, double unit_size, double tolerance) const {
     return {std::move(quantity), unit_size, tolerance, static_cast<double>(segments(far.level))};
@@ -106,7 +108,7 @@ const char* normal_objection(const FarVertex& vertex) {
 template <class Real>
 Deviation compare_points(const Sides<Real>& sides, const char* quantity, const std::vector<Real>& ours,
                          const std::vector<Real>& far, bool limit) {
-  const double tolerance = value_tolerance<Real>() * sides.scale.remoteness;
+  const double tolerance = sides.value_tolerance * sides.scale.remoteness;
   if (ours.size() != 3 * sides.ours.provenance.size() || far.size() != 3 * sides.far.vertices.size())
     return incomparable(quantity, tolerance);
   Tally tally = sides.tally(quantity, sides.scale.diagonal, tolerance);
@@ -130,14 +132,20 @@ Deviation compare_normals(const Sides<Real>& sides) {
       far.tangents_v.size() != size)
     return incomparable("normals", normal_tolerance<Real>());
   Tally tally = sides.tally("normals", 1, normal_tolerance<Real>());
-  // Tangents closer to parallel than this say little about a normal: the angle's own rounding grows as
-  // epsilon over their sine, and with the mesh's distance from the origin.
-  const double least_sine = 1e4 * double{std::numeric_limits<Real>::epsilon()} * sides.scale.remoteness;
+  // Tangents are differences of coordinates: they round by epsilon times the coordinates' size, which turns
+  // the normal by about rounding (|u| + |v|) / |u x v|. Where that alone may be half the tolerance, nothing
+  // is said.
+  const double rounding = double{std::numeric_limits<Real>::epsilon()} * sides.scale.diagonal *
+                          sides.scale.remoteness * 2 / (normal_tolerance<Real>() * std::numbers::pi / 180);
   sides.for_each_pair([&](Index f, Index v) {
     if (const char* objection = normal_objection(far.vertices[f])) return tally.except(objection);
     const Vector ours = vector_at(sides.ours.normals, v);
-    const Vector theirs = cross(unit(vector_at(far.tangents_u, f)), unit(vector_at(far.tangents_v, f)));
-    if (dot(ours, ours) == 0 || dot(theirs, theirs) < least_sine * least_sine) return tally.except(kNoNormal);
+    const Vector u = vector_at(far.tangents_u, f), v_across = vector_at(far.tangents_v, f);
+    const Vector theirs = cross(unit(u), unit(v_across));
+    const double sine = std::sqrt(dot(theirs, theirs));
+    // |u x v| / (|u| + |v|) in a form that neither over- nor underflows.
+    const double height = sine / (1 / length(u) + 1 / length(v_across));
+    if (dot(ours, ours) == 0 || !(height > rounding)) return tally.except(kNoNormal);
     tally.add(degrees_between(ours, unit(theirs)), sides.site(v));
   });
   return tally.finish();
@@ -217,8 +225,8 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
   const Primvar& control = sides.mesh.primvars[p];
   const bool face_varying = control.interpolation == Interpolation::face_varying;
   const std::string quantity = "primvars/" + control.name + (limit ? "/limit" : "");
-  const double tolerance =
-      limit && face_varying ? face_varying_limit_tolerance<Real>() : value_tolerance<Real>();
+  double tolerance = sides.value_tolerance;
+  if (limit && face_varying) tolerance = std::max(tolerance, face_varying_limit_tolerance<Real>());
   if (p >= sides.ours.primvars.size()) return incomparable(quantity, tolerance);
   const RefinedPrimvar<Real>& ours = sides.ours.primvars[p];
   const FarPrimvar<Real>& far = sides.far.primvars[p];
@@ -234,6 +242,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
   for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
     const char* objection =
         limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
+    if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
     if (objection != nullptr) return tally.except(objection);
     tally.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
               site);
@@ -247,7 +256,8 @@ template <class Real>
 LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far) {
   const Correspondence pairs =
       match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far);
-  const Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3)};
+  Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3), value_tolerance<Real>()};
+  if (sharpness_rounds(mesh)) sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
   LevelReport report;
   report.level = far.level;
   report.connectivity_identical = pairs.identical;

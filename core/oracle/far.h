@@ -32,6 +32,8 @@ struct FarPrimvar {
   std::vector<Real> values;        // as RefinedPrimvar, per Far vertex, face or face-varying value
   std::vector<Real> limit_values;  // vertex and face_varying, when asked for
   std::vector<Index> indices;      // face_varying: one per face corner
+  // face_varying: per base face, set where Far tears a value (far_quirks.h); empty when it nowhere does.
+  std::vector<unsigned char> torn_faces;
 };
 
 template <class Real>

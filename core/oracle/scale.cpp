@@ -51,4 +51,19 @@ PointScale point_scale(std::span<const double> points, Index width) {
   return {diagonal * largest, std::max(1.0, 1 / diagonal)};
 }
 
+bool sharpness_rounds(const ControlMesh& mesh) {
+  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
+  std::vector<Index> edges(mesh.point_count(),
+                           0);  // semi-sharp ones at every point; named twice, counted twice
+  Count point = 0, edge = 0;
+  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
+    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
+      const float sharpness = mesh.crease_sharpnesses[per_crease ? crease : edge];
+      if (!(sharpness > 0) || sharpness >= kInfiniteSharpness) continue;
+      ++edges[mesh.crease_indices[point]];
+      ++edges[mesh.crease_indices[point + 1]];
+    }
+  return std::any_of(edges.begin(), edges.end(), [](Index count) { return count >= 3; });
+}
+
 }  // namespace subdivd::oracle

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/base/index.h"
+#include "core/mesh/control_mesh.h"
 
 namespace subdivd::oracle {
 
@@ -16,6 +17,11 @@ struct PointScale {
 };
 // `points`: width scalars each.
 PointScale point_scale(std::span<const double> points, Index width);
+
+// Sharpness is single precision in Far and here, and three or more semi-sharp edges at one point are added up
+// in an order that is each side's own: the blended weights may differ in their eighth digit.
+bool sharpness_rounds(const ControlMesh& mesh);
+inline constexpr double kSharpnessRounding = 1e-7;  // tolerance of values, relative, where it does
 
 // Tolerances of max_relative in the precision of Real.
 template <class Real>

@@ -20,7 +20,11 @@ void remark_exceptions(MeshReport& report) {
     }
 }
 
-void remark_remoteness(const ControlMesh& mesh, MeshReport& report) {
+void remark_tolerances(const ControlMesh& mesh, MeshReport& report) {
+  if (sharpness_rounds(mesh))
+    report.remarks.push_back(
+        "three or more semi-sharp edges meet: sharpness is single precision and its sums "
+        "round by their order, so the tolerance of values is at least 1e-7");
   const double remoteness = point_scale(mesh.points, 3).remoteness;
   if (remoteness > 1)
     report.remarks.push_back(
@@ -62,7 +66,7 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
     report.passed = report.passed && passed(report.levels.back());
   }
   remark_exceptions(report);
-  remark_remoteness(mesh, report);
+  remark_tolerances(mesh, report);
   return report;
 }
 
