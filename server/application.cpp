@@ -107,7 +107,7 @@ Response Application::answer(Request& request) {
 }
 
 Response Application::refuse(const Request& request, const Refusal& refusal) {
-  if (refusal.status == 500) log_error("failed: " + quoted(request.method) + " " + quoted(request.target));
+  if (refusal.status == 500) log_error("failed: " + escaped(request.method) + " " + escaped(request.target));
   return finished(request, problem_response(refusal));
 }
 

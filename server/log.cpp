@@ -30,7 +30,7 @@ void log_info(std::string_view line) { spdlog::info("{}", line); }
 void log_warning(std::string_view line) { spdlog::warn("{}", line); }
 void log_error(std::string_view line) { spdlog::error("{}", line); }
 
-std::string quoted(std::string_view text) {
+std::string escaped(std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string result = "\"";
   for (const char c : text.substr(0, kMaxQuoted)) {
@@ -53,8 +53,8 @@ std::string access_line(const Exchange& exchange) {
   std::array<char, 96> numbers{};
   std::snprintf(numbers.data(), numbers.size(), " status=%d bytes=%llu ms=%.1f peer=", exchange.status,
                 static_cast<unsigned long long>(exchange.body_bytes), exchange.milliseconds);
-  return "method=" + quoted(exchange.request.method) + " target=" + quoted(exchange.request.target) +
-         numbers.data() + quoted(exchange.request.peer) + (exchange.completed ? "" : " broken");
+  return "method=" + escaped(exchange.request.method) + " target=" + escaped(exchange.request.target) +
+         numbers.data() + escaped(exchange.request.peer) + (exchange.completed ? "" : " broken");
 }
 
 }  // namespace subdivd::server

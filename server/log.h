@@ -16,7 +16,7 @@ void log_error(std::string_view line);
 
 // In quotes, with every byte that is not visible ASCII or a blank as \xNN: a client must not be able to begin
 // a line of its own, or to speak to the terminal.
-std::string quoted(std::string_view text);
+std::string escaped(std::string_view text);
 
 // method="GET" target="/livez" status=200 bytes=3 ms=0.1 peer="127.0.0.1", and `broken` at the end when the
 // client left before the last byte.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/log.h"
 #include "server/transport/transport.h"
 #include "tests/server/fake_service.h"
 #include "tests/server/raw_client.h"
@@ -35,6 +36,7 @@ struct RunningApplication {
         memory(config.max_memory_bytes),
         application(config, memory),
         transport(options_of(config), application, memory) {
+    start_log("off");
     application.prepare();
     if (!transport.start()) throw std::runtime_error("cannot listen");
     port = transport.port();

@@ -41,7 +41,9 @@ TEST(Config, flags_are_named_once) {
 TEST(Config, refuses_nonsense_for_every_setting_but_the_host) {
   for (const Setting& setting : setting_table()) {
     Config config;
-    if (setting.flag != "host") EXPECT_FALSE(setting.set(config, "nonsense")) << setting.flag;
+    if (setting.flag != "host") {
+      EXPECT_FALSE(setting.set(config, "nonsense")) << setting.flag;
+    }
     EXPECT_FALSE(setting.set(config, "")) << setting.flag;
   }
 }

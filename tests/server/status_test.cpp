@@ -48,9 +48,9 @@ TEST(Status, is_a_problem_document) {
 }
 
 TEST(Log, escapes_whatever_could_end_a_line_or_drive_a_terminal) {
-  EXPECT_EQ(quoted("a\r\nb\x1b[31m\"\\\x7f\xc3\xa9"), R"("a\x0d\x0ab\x1b[31m\"\\\x7f\xc3\xa9")");
+  EXPECT_EQ(escaped("a\r\nb\x1b[31m\"\\\x7f\xc3\xa9"), R"("a\x0d\x0ab\x1b[31m\"\\\x7f\xc3\xa9")");
 }
-TEST(Log, cuts_long_text) { EXPECT_EQ(quoted(std::string(1000, 'a')).size(), 300u + 5u); }
+TEST(Log, cuts_long_text) { EXPECT_EQ(escaped(std::string(1000, 'a')).size(), 300u + 5u); }
 TEST(Log, writes_one_line_for_an_exchange) {
   Request request;
   request.method = "GET";
