@@ -1,8 +1,10 @@
 #pragma once
-// One refined level of ours against the same level by Far.
+// Our refined levels against the same levels by Far.
 
+#include "core/curves/cubic.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far.h"
+#include "core/oracle/far_curves.h"
 #include "core/oracle/report.h"
 #include "core/oracle/scale.h"
 #include "core/refine/refined_mesh.h"
@@ -14,6 +16,11 @@ namespace subdivd::oracle {
 // difference of a component. Arrays of the wrong length fail as a whole (compared = 0, tolerance missed).
 template <class Real>
 LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far);
+
+// One refined level of curves (deviations: verify.h says how the worst point is named).
+// connectivity_identical: the same number of points, curve by curve.
+template <class Real>
+LevelReport compare(const RefinedCurves<Real>& ours, const FarCurves& far, const PointScale& scale);
 
 // Connectivity identical and every deviation within its tolerance.
 bool passed(const LevelReport& level);
