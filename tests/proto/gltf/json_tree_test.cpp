@@ -1,0 +1,79 @@
+#include "proto/gltf/json_tree.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/proto/gltf/pipeline.h"
+
+namespace subdivd::proto::gltf {
+namespace {
+
+Error error_of(const std::string& text, JsonLimits limits = {}) {
+  const auto parsed = parse_json(text, limits);
+  return parsed ? Error{ErrorCode::internal, "accepted", {}, 0, 0} : parsed.error();
+}
+
+TEST(JsonTree, prints_what_it_read) {
+  const std::string text =
+      R"({"z":1,"a":[true,false,null,"q\"\\"],"n":123456789012345678901234567890,"m":-9223372036854775808,)"
+      R"("f":0.10,"e":1E+2,"d":1.0,"empty":{},"none":[],"u":18446744073709551615})";
+  const auto parsed = parse_json(text, {});
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(parsed->text(), text);
+}
+
+TEST(JsonTree, escapes_control_characters) {
+  const auto parsed = parse_json(R"(["\u0001\n"])", {});
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(parsed->text(), R"(["\u0001\u000a"])");
+}
+
+TEST(JsonTree, refuses_duplicate_members_and_says_where) {
+  const Error error = error_of(R"({"a":[0,{"b":1,"c":2,"b":3}]})");
+  EXPECT_EQ(error.code, ErrorCode::duplicate_field);
+  EXPECT_EQ(test::to_pointer(error.where), "/a/1/b");
+}
+
+TEST(JsonTree, refuses_duplicates_written_in_two_ways) {
+  EXPECT_EQ(error_of(R"({"a":1,"\u0061":2})").code, ErrorCode::duplicate_field);
+}
+
+TEST(JsonTree, refuses_deep_nesting) {
+  const std::string deep = std::string(20000, '[') + std::string(20000, ']');
+  EXPECT_EQ(error_of(deep).code, ErrorCode::too_large);
+  EXPECT_EQ(error_of(std::string(1000000, '[')).code, ErrorCode::too_large);
+}
+
+TEST(JsonTree, accepts_nesting_up_to_the_limit) {
+  const std::string text = std::string(64, '[') + std::string(64, ']');
+  EXPECT_TRUE(parse_json(text, {}).ok());
+}
+
+TEST(JsonTree, refuses_more_values_than_allowed) {
+  const Error error = error_of("[[],[],[],[]]", {64, 4});
+  EXPECT_EQ(error.code, ErrorCode::too_large);
+  EXPECT_EQ(error.allowed, 4u);
+}
+
+TEST(JsonTree, refuses_what_is_no_json) {
+  for (const char* text : {"", " ", "{", "{]", "[1,]", "nul", "\"", "{\"a\":}", "[1e999]", "\xff",
+                           "[\"\xc0\x80\"]", "{} x", "[01]", "[NaN]", "\"\\ud800\""})
+    EXPECT_EQ(error_of(text).code, ErrorCode::malformed) << text;
+}
+
+TEST(JsonTree, knows_whole_numbers) {
+  const auto parsed = parse_json("[0,9007199254740992,9007199254740993,-1,1.0,1e2,true]", {});
+  ASSERT_TRUE(parsed.ok());
+  const Json::Array& numbers = *parsed->array();
+  EXPECT_EQ(numbers[0].integer(), Count{0});
+  EXPECT_EQ(numbers[1].integer(), Count{1} << 53);
+  for (const std::size_t i : {2, 3, 4, 5, 6}) EXPECT_FALSE(numbers[i].integer().has_value()) << i;
+}
+
+TEST(JsonTree, takes_long_objects_in_reasonable_time) {
+  std::string text = "{";
+  for (int i = 0; i < 300000; ++i) text += (i == 0 ? "\"k" : ",\"k") + std::to_string(i) + "\":0";
+  EXPECT_TRUE(parse_json(text + "}", {}).ok());
+}
+
+}  // namespace
+}  // namespace subdivd::proto::gltf

@@ -1,0 +1,30 @@
+#pragma once
+// A request from bytes to bytes, as the daemon does it, without the parts of proto that are not glTF's.
+
+#include <string>
+
+#include "proto/gltf/gltf.h"
+
+namespace subdivd::test {
+
+struct Outcome {
+  proto::RefineRequest request;
+  Count predicted = 0;
+  std::string bytes;  // of the whole answer
+};
+
+// Reads, drops degenerate faces, checks, predicts, refines in single precision, writes.
+Result<Outcome> refine_gltf(const std::string& body, proto::Format format, proto::Options options,
+                            const proto::Limits& limits = {});
+// From predicting on: for requests made in tests.
+Result<Outcome> answer(proto::RefineRequest request);
+// The pipeline where it must succeed: throws the error's message.
+Outcome must_refine(const std::string& body, proto::Options options = {},
+                    proto::Format format = proto::Format::glb);
+proto::RefineRequest must_read(const std::string& body, proto::Options options = {},
+                               proto::Format format = proto::Format::glb);
+
+std::string to_string(const proto::Payload& payload);
+std::string to_pointer(const Path& path);
+
+}  // namespace subdivd::test
