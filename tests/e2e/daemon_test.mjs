@@ -82,6 +82,11 @@ for (const { name, bytes } of bodies.filter(({ isGlb }) => !isGlb))
     assert.equal(status, 200, text.toString());
   });
 
+test('curves come with tangents where meshes come with normals', async () => {
+  const { bytes } = await post('/v1/refine', 'normals=true', readFileSync(join(root, 'tests/shapes/curve.json')));
+  for (const curve of JSON.parse(bytes).curves) assert.equal(curve.tangents?.length, curve.points.length);
+});
+
 test('a refusal is a problem that points at the place', async () => {
   const { status, bytes } = await post('/v1/refine', '', '{"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,3]}');
   const problem = JSON.parse(bytes);

@@ -72,19 +72,20 @@ std::string sample_vase_json() {
     return out + "]";
   };
   const auto plain = [](Index value) { return std::to_string(value); };
-  const std::vector<Index> creases = [&] {
-    std::vector<Index> both = foot;
-    both.insert(both.end(), neck.begin(), neck.end());
-    return both;
-  }();
-  return "{\n  \"name\": \"vase\",\n  \"points\": " + list(points, 6, tuple) +
-         ",\n  \"faceVertexIndices\": " + list(faces, 12, tuple) +
-         ",\n  \"creaseIndices\": " + list(creases, 24, plain) +
-         ",\n  \"creaseLengths\": [9, 9],\n  \"creaseSharpnesses\": [\"infinite\", 2.5],\n  \"primvars\": "
-         "{\"st\": {"
-         "\"interpolation\": \"faceVarying\", \"elementSize\": 2,\n    \"values\": " +
-         list(st, 8, tuple) + ",\n    \"indices\": " + list(st_faces, 12, tuple) +
-         "}},\n  \"options\": {\"level\": 3, \"normals\": true}\n}\n";
+  std::vector<Index> creases = foot, st_indices;
+  creases.insert(creases.end(), neck.begin(), neck.end());
+  for (const auto& face : st_faces) st_indices.insert(st_indices.end(), face.begin(), face.end());
+  std::string json = "{\n  \"name\": \"vase\",\n  \"points\": " + list(points, 6, tuple);
+  json += ",\n  \"faceVertexIndices\": " + list(faces, 12, tuple);
+  json += ",\n  \"creaseIndices\": " + list(creases, 24, plain);
+  json += R"(,
+  "creaseLengths": [9, 9],
+  "creaseSharpnesses": ["infinite", 2.5],
+  "primvars": {"st": {"interpolation": "faceVarying", "elementSize": 2,
+    "values": )";
+  json += list(st, 8, tuple);
+  json += ",\n    \"indices\": " + list(st_indices, 24, plain);
+  return json + "}},\n  \"options\": {\"level\": 3, \"normals\": true}\n}\n";
 }
 
 }  // namespace subdivd::shapes
