@@ -183,7 +183,9 @@ void take_face_varying(const Far::TopologyRefiner& refiner, const RefineOptions&
     for (int k = 0; k < 3; ++k) result.indices.push_back(static_cast<Index>(values[k]));
   }
   result.torn_faces = faces_at_torn_values(refiner, channel);
-  if (!options.limit) return;
+  // At the control mesh LimitFaceVarying takes indices of values for indices of its own tags: wrong tags, and
+  // a read past their end when values are left unused.
+  if (!options.limit || options.level == 0) return;
   result.limit_values.resize(result.values.size());
   Rows<Real> to(result.limit_values, width);
   Far::PrimvarRefinerReal<Real>(refiner).LimitFaceVarying(Rows<Real>(result.values, width), to, channel);

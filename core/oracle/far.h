@@ -30,7 +30,7 @@ struct FarVertex {
 template <class Real>
 struct FarPrimvar {
   std::vector<Real> values;        // as RefinedPrimvar, per Far vertex, face or face-varying value
-  std::vector<Real> limit_values;  // vertex and face_varying, when asked for
+  std::vector<Real> limit_values;  // vertex and face_varying, when asked for; not face_varying of level 0
   std::vector<Index> indices;      // face_varying: one per face corner
   // face_varying: per base face, set where Far tears a value (far_quirks.h); empty when it nowhere does.
   std::vector<unsigned char> torn_faces;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace subdivd::oracle {
@@ -48,7 +49,7 @@ PointScale point_scale(std::span<const double> points, Index width) {
   }
   const double diagonal = 2 * std::sqrt(square);
   if (!(diagonal > 0)) return {largest, 1};
-  return {diagonal * largest, std::max(1.0, 1 / diagonal)};
+  return {std::min(diagonal * largest, std::numeric_limits<double>::max()), std::max(1.0, 1 / diagonal)};
 }
 
 bool sharpness_rounds(const ControlMesh& mesh) {
