@@ -103,8 +103,14 @@ void add_component_types(Folder& folder) {
     options.limit = true;
     options.level = 3;
     folder.add("limit", builder.glb(), options);
+    // Half of the grid's faces touch the border, and all faces of the next one do.
     options.interpolate_boundary = BoundaryInterpolation::none;
     folder.add("boundary_none", builder.glb(), options);
+    GltfBuilder small;
+    const Grid two = grid(1);
+    small.mesh({{"POSITION", small.values(two.positions, 3)}, {"NORMAL", small.values(two.normals, 3)}},
+               small.values(two.triangles, 1));
+    folder.add("nothing_left", small.glb(), options);
   }
   {
     GltfBuilder builder;

@@ -63,6 +63,7 @@ Result<Outcome> refine_gltf(const std::string& body, Format format, Options opti
   auto request = gltf::read(body, format, options, limits);
   if (!request) return request.error();
   for (ControlMesh& mesh : request->meshes) {
+    if (options.interpolate_boundary) mesh.interpolate_boundary = *options.interpolate_boundary;
     if (auto dropped = drop_degenerate_faces(mesh); !dropped) return dropped.error();
     if (auto good = mesh.check(); !good) return good.error();
   }
