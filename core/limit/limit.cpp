@@ -65,40 +65,58 @@ void mean_normal(std::span<const Frame<Real>> frames, Real out[3]) {
 }
 
 template <class Scheme, class Real>
-LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, const Topology& topology,
-                                   const Sharpness& sharpness, Index v, std::span<const Real> values,
-                                   Index width)
+LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, const Sharp& own,
+                                   const Sharp& mesh, Index v, std::span<const Real> values, Index width)
     : scheme_(scheme), method_(method), width_(width) {
-  gather(topology, sharpness, v, values);
-  gather_sectors(topology, v);
+  gather(own, v, values);
+  gather_sectors(own.topology, v);
+  if (settled()) return;
+  gather_decay(own, mesh, v);
   while (!settled()) step();
 }
 
 template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::gather(const Topology& topology, const Sharpness& sharpness, Index v,
-                                     std::span<const Real> values) {
+void LimitRing<Scheme, Real>::gather(const Sharp& own, Index v, std::span<const Real> values) {
   auto append = [&](std::vector<Real>& to, Index vertex) {
     const auto at = values.subspan(std::size_t{vertex} * width_, width_);
     to.insert(to.end(), at.begin(), at.end());
   };
   append(center_, v);
-  vertex_sharpness_ = sharpness.vertices[v];
-  std::vector<float> around, child;
-  for (Index e : topology.vertex_edges(v)) {
-    const Index end = topology.other_end(e, v);
-    append(neighbors_, end);
-    edge_sharpness_.push_back(sharpness.edges[e]);
-    if (method_ == CreaseMethod::uniform || !is_semi_sharp(sharpness.edges[e])) {
-      far_child_.push_back(decay(sharpness.edges[e]));
+  vertex_sharpness_ = own.sharpness.vertices[v];
+  for (Index e : own.topology.vertex_edges(v)) {
+    append(neighbors_, own.topology.other_end(e, v));
+    edge_sharpness_.push_back(own.sharpness.edges[e]);
+  }
+}
+
+// What decides how the ring's sharpness decays: the edges around the same point of the mesh, and, at the far
+// ends of the ring's edges, those around theirs.
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::gather_decay(const Sharp& own, const Sharp& mesh, Index v) {
+  const Index h0 = own.topology.vertex_corners(v)[0];
+  const auto around = mesh.topology.vertex_edges(mesh.topology.corner_vertex(h0));
+  auto sharpness_of = [&](std::span<const Index> edges) {
+    std::vector<float> result;
+    for (Index e : edges) result.push_back(mesh.sharpness.edges[e]);
+    return result;
+  };
+  auto position = [](std::span<const Index> edges, Index e) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin());
+  };
+  around_ = sharpness_of(around);
+  for (Index e : own.topology.vertex_edges(v)) {
+    const Index in_mesh = mesh.topology.half_edge_edge(own.topology.edge_half_edges(e)[0]);
+    in_mesh_.push_back(position(around, in_mesh));
+    if (is_infinite(own.sharpness.edges[e])) {
+      far_child_.push_back(kInfiniteSharpness);
       continue;
     }
-    const auto end_edges = topology.vertex_edges(end);
-    around.clear();
-    for (Index other : end_edges) around.push_back(sharpness.edges[other]);
-    child.resize(around.size());
-    decay_around_vertex(method_, around, child);
-    far_child_.push_back(
-        child[static_cast<std::size_t>(std::ranges::lower_bound(end_edges, e) - end_edges.begin())]);
+    const auto at_end =
+        mesh.topology.vertex_edges(mesh.topology.other_end(in_mesh, mesh.topology.corner_vertex(h0)));
+    const std::vector<float> parent = sharpness_of(at_end);
+    std::vector<float> child(parent.size());
+    decay_around_vertex(method_, parent, child);
+    far_child_.push_back(child[position(at_end, in_mesh)]);
   }
 }
 
@@ -131,8 +149,10 @@ bool LimitRing<Scheme, Real>::settled() const {
 template <class Scheme, class Real>
 void LimitRing<Scheme, Real>::step() {
   const std::size_t n = edge_sharpness_.size();
-  std::vector<float> near_child(n);
-  decay_around_vertex(method_, edge_sharpness_, near_child);
+  std::vector<float> around(around_.size()), near_child(n);
+  decay_around_vertex(method_, around_, around);
+  for (std::size_t k = 0; k < n; ++k)
+    near_child[k] = is_infinite(edge_sharpness_[k]) ? kInfiniteSharpness : around[in_mesh_[k]];
   std::vector<Index> face_counts(n, 0);
   std::vector<Real> opposite(neighbors_.size(), Real(0));
   for (const Wedge& wedge : wedges_)
@@ -169,6 +189,7 @@ void LimitRing<Scheme, Real>::step() {
     }
   }
   center_ = std::move(center);
+  around_ = std::move(around);
   edge_sharpness_ = std::move(near_child);
   vertex_sharpness_ = child_sharpness;
 }
@@ -198,7 +219,8 @@ void LimitRing<Scheme, Real>::apply(const RingMask& mask, std::span<const Index>
 
 // A tangent mask's weights sum to 0: applied to differences it loses nothing far from the origin.
 template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<const Index> order, Real out[3]) const {
+void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<const Index> order,
+                                              Real out[3]) const {
   for (std::size_t c = 0; c < 3; ++c) {
     Real sum = 0;
     for (std::size_t k = 0; k < mask.edges.size(); ++k)

@@ -3,6 +3,7 @@
 // a time: the ring of a vertex at the next level depends on its ring at this level alone, so semi-sharp rings
 // are refined by themselves until their sharpness has run out, and the limit masks then hold exactly.
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,12 @@
 #include "core/schemes/mask.h"
 
 namespace subdivd {
+
+// A mesh or channel at some level.
+struct Sharp {
+  const Topology& topology;
+  const Sharpness& sharpness;
+};
 
 // Tangents and normal of the surface on one side of a vertex: of a sector, the faces between two sharp edges.
 template <class Real>
@@ -24,9 +31,10 @@ struct Frame {
 template <class Scheme, class Real>
 class LimitRing {
  public:
-  // `values`: width scalars per vertex of the topology.
-  LimitRing(const Scheme& scheme, CreaseMethod method, const Topology& topology, const Sharpness& sharpness,
-            Index v, std::span<const Real> values, Index width);
+  // `values`: width scalars per vertex of the topology. For a channel, `mesh` is the mesh over the same faces
+  // at the same level, whose edges decide how sharpness decays; for the mesh itself the two are the same.
+  LimitRing(const Scheme& scheme, CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
+            std::span<const Real> values, Index width);
 
   // Limit of the vertex: width scalars.
   std::vector<Real> position() const;
@@ -48,7 +56,8 @@ class LimitRing {
     bool closed = false;
   };
 
-  void gather(const Topology& topology, const Sharpness& sharpness, Index v, std::span<const Real> values);
+  void gather(const Sharp& own, Index v, std::span<const Real> values);
+  void gather_decay(const Sharp& own, const Sharp& mesh, Index v);
   void gather_sectors(const Topology& topology, Index v);
   bool settled() const;
   void step();
@@ -65,6 +74,8 @@ class LimitRing {
   std::vector<Real> center_, neighbors_;
   float vertex_sharpness_ = 0;
   std::vector<float> edge_sharpness_;  // of the ring's edges
+  std::vector<float> around_;          // of the mesh's edges at the vertex, which decay together
+  std::vector<std::size_t> in_mesh_;   // position of every ring edge in around_
   std::vector<float> far_child_;       // one level on, of the halves that are not next to the vertex
   std::vector<Wedge> wedges_;
   std::vector<Sector> sectors_;

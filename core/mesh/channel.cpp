@@ -134,19 +134,34 @@ class Rules {
     if (dependent && !all_sharp && spans.size() == 2 && spans[0].semi_sharp != spans[1].semi_sharp)
       for (std::size_t k = 0; k < 2; ++k)
         if (spans[k].semi_sharp == 0)
-          vertices[values[k]] = std::max(vertices[values[k]], levels_held(values[1 - k]));
+          vertices[values[k]] = std::max(vertices[values[k]], levels_held(v, values[1 - k]));
   }
 
-  // Number of levels after which semi-sharp edges still stand around channel vertex c, as a sharpness.
-  float levels_held(Index c) const {
-    std::vector<float> edges, next;
-    for (Index e : channel_.topology.vertex_edges(c)) edges.push_back(channel_.sharpness.edges[e]);
-    next = edges;
-    float levels = 0;
-    for (;; ++levels) {
+  // For how long semi-sharp edges stand inside the fan of channel vertex c (at point v), as a vertex
+  // sharpness: whole levels, and for the level at which the last runs out the fraction that Far would blend
+  // with.
+  float levels_held(Index v, Index c) const {
+    const auto around = base_.vertex_edges(v);
+    std::vector<float> edges, next(around.size()), own, own_next;
+    for (Index e : around) edges.push_back(base_sharpness_.edges[e]);
+    std::vector<std::size_t> inside;  // of the fan, as positions around v
+    for (Index h : channel_.topology.vertex_corners(c))
+      if (!channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)))
+        inside.push_back(static_cast<std::size_t>(std::ranges::lower_bound(around, base_.half_edge_edge(h)) -
+                                                  around.begin()));
+    float vertex = base_sharpness_.vertices[v];
+    for (float levels = 0;; ++levels) {
       decay_around_vertex(crease_method_, edges, next);
-      if (std::ranges::none_of(next, is_semi_sharp)) return levels;
+      own.clear();
+      own_next.clear();
+      for (std::size_t k : inside) {
+        own.push_back(edges[k]);
+        own_next.push_back(next[k]);
+      }
+      if (std::ranges::none_of(own_next, is_semi_sharp))
+        return levels + fractional_weight(crease_method_, vertex, decay(vertex), own, own_next);
       edges.swap(next);
+      vertex = decay(vertex);
     }
   }
 

@@ -9,9 +9,8 @@
 namespace subdivd::plain {
 namespace {
 
-// Sharpness of the halves of every edge: [e][0] next to the lower-numbered end, [e][1] next to the other.
-std::vector<std::array<float, 2>> child_edge_sharpness(const Level& level, CreaseMethod method) {
-  std::vector<std::array<float, 2>> children(level.topology.edge_count());
+std::vector<std::array<float, 2>> decayed_halves(const Level& level, CreaseMethod method) {
+  std::vector<std::array<float, 2>> halves(level.topology.edge_count());
   std::vector<float> parent, child;
   for (Index v = 0; v < level.topology.vertex_count(); ++v) {
     const auto edges = level.topology.vertex_edges(v);
@@ -20,9 +19,9 @@ std::vector<std::array<float, 2>> child_edge_sharpness(const Level& level, Creas
     child.resize(parent.size());
     decay_around_vertex(method, parent, child);
     for (std::size_t k = 0; k < edges.size(); ++k)
-      children[edges[k]][level.topology.edge_vertices(edges[k])[0] == v ? 0 : 1] = child[k];
+      halves[edges[k]][level.topology.edge_vertices(edges[k])[0] == v ? 0 : 1] = child[k];
   }
-  return children;
+  return halves;
 }
 
 // Face f = (v0, v1, v2) with edge points e0, e1, e2 becomes (v0 e0 e2) (e0 v1 e1) (e2 e1 v2) (e0 e1 e2). Edge
@@ -72,37 +71,68 @@ std::vector<GridPoint> child_corners(const std::vector<GridPoint>& corners) {
   return children;
 }
 
-}  // namespace
-
-Level first_level(Topology topology, Sharpness sharpness) {
-  Level level{std::move(topology), std::move(sharpness), false, false, {}};
-  for (Index f = 0; f < level.topology.face_count(); ++f)
-    level.corners.insert(level.corners.end(), {GridPoint{0, 0}, GridPoint{1, 0}, GridPoint{0, 1}});
-  return level;
+// Of a channel from the mesh over the same faces; borders and what else is infinite stay so.
+std::vector<std::array<float, 2>> inherited_halves(const Level& channel, const Level& mesh) {
+  const Topology& own = channel.topology;
+  std::vector<std::array<float, 2>> halves(own.edge_count());
+  auto side = [](const Topology& topology, Index h) {
+    return topology.edge_vertices(topology.half_edge_edge(h))[0] == topology.corner_vertex(h) ? 0u : 1u;
+  };
+  for (Index h = 0; h < own.triangles().size(); ++h) {
+    const Index e = own.half_edge_edge(h);
+    const auto& from = mesh.halves[mesh.topology.half_edge_edge(h)];
+    const unsigned own_side = side(own, h), mesh_side = side(mesh.topology, h);
+    halves[e][own_side] = from[mesh_side];
+    halves[e][1 - own_side] = from[1 - mesh_side];
+    if (is_infinite(channel.sharpness.edges[e])) halves[e] = {kInfiniteSharpness, kInfiniteSharpness};
+  }
+  return halves;
 }
 
-Level first_level(const Channel& channel) {
-  Level level = first_level(channel.topology, channel.sharpness);
-  level.linear = channel.linear;
-  level.linear_borders = channel.linear_borders;
-  return level;
-}
-
-Result<Level> next_level(const Level& level, CreaseMethod method, const Budget& budget) {
+// The next level but for its halves.
+Result<Level> split(const Level& level, const Budget& budget) {
   if (auto stop = budget.poll()) return *stop;
   const Topology& parent = level.topology;
   const Index vertices = parent.vertex_count();
-  Level next{child_topology(parent), {}, level.linear, level.linear_borders, child_corners(level.corners)};
+  Level next{child_topology(parent),      {}, {}, level.linear, level.linear_borders,
+             child_corners(level.corners)};
   if (auto stop = budget.poll()) return *stop;
-  const auto children = child_edge_sharpness(level, method);
   next.sharpness.edges.assign(next.topology.edge_count(), 0.0f);  // edges inside faces are smooth
   for (Index e = 0; e < parent.edge_count(); ++e)
-    for (Index half : {0, 1}) next.sharpness.edges[2 * e + half] = children[e][half];
+    for (Index half : {0, 1}) next.sharpness.edges[2 * e + half] = level.halves[e][half];
   next.sharpness.vertices.assign(next.topology.vertex_count(), 0.0f);
   for (Index v = 0; v < vertices; ++v) next.sharpness.vertices[v] = decay(level.sharpness.vertices[v]);
   if (level.linear_borders)
     for (Index e = 0; e < parent.edge_count(); ++e)
       if (parent.is_boundary(e)) next.sharpness.vertices[vertices + e] = kInfiniteSharpness;
+  return next;
+}
+
+}  // namespace
+
+Level first_level(Topology topology, Sharpness sharpness, CreaseMethod method) {
+  Level level{std::move(topology), std::move(sharpness), {}, false, false, {}};
+  level.halves = decayed_halves(level, method);
+  for (Index f = 0; f < level.topology.face_count(); ++f)
+    level.corners.insert(level.corners.end(), {GridPoint{0, 0}, GridPoint{1, 0}, GridPoint{0, 1}});
+  return level;
+}
+
+Level first_level(const Channel& channel, const Level& mesh) {
+  Level level{channel.topology, channel.sharpness, {}, channel.linear, channel.linear_borders, mesh.corners};
+  level.halves = inherited_halves(level, mesh);
+  return level;
+}
+
+Result<Level> next_level(const Level& level, CreaseMethod method, const Budget& budget) {
+  Result<Level> next = split(level, budget);
+  if (next) next->halves = decayed_halves(*next, method);
+  return next;
+}
+
+Result<Level> next_level(const Level& channel, const Level& next_mesh, const Budget& budget) {
+  Result<Level> next = split(channel, budget);
+  if (next) next->halves = inherited_halves(*next, next_mesh);
   return next;
 }
 
@@ -114,7 +144,6 @@ Result<std::vector<Real>> refine_values(const Scheme& scheme, CreaseMethod metho
                                         std::span<const Real> values, Index width, bool linear,
                                         const Budget& budget) {
   const Topology& topology = level.topology;
-  const auto children = child_edge_sharpness(level, method);
   std::vector<Real> next((std::size_t{topology.vertex_count()} + topology.edge_count()) * width);
   auto add = [&](Real* out, double weight, Index v) {
     for (Index c = 0; c < width; ++c)
@@ -131,7 +160,7 @@ Result<std::vector<Real>> refine_values(const Scheme& scheme, CreaseMethod metho
     child_sharpness.clear();
     for (Index e : edges) {
       sharpness.push_back(level.sharpness.edges[e]);
-      child_sharpness.push_back(children[e][topology.edge_vertices(e)[0] == v ? 0 : 1]);
+      child_sharpness.push_back(level.halves[e][topology.edge_vertices(e)[0] == v ? 0 : 1]);
     }
     const float own = level.sharpness.vertices[v];
     VertexMask mask;  // v stays
@@ -152,8 +181,9 @@ Result<std::vector<Real>> refine_values(const Scheme& scheme, CreaseMethod metho
     const auto faces = topology.edge_half_edges(e);
     EdgeMask mask;  // the midpoint
     if (!linear)
-      mask = scheme.edge_mask(
-          {static_cast<Index>(faces.size()), level.sharpness.edges[e], {children[e][0], children[e][1]}});
+      mask = scheme.edge_mask({static_cast<Index>(faces.size()),
+                               level.sharpness.edges[e],
+                               {level.halves[e][0], level.halves[e][1]}});
     Real* out = next.data() + (std::size_t{topology.vertex_count()} + e) * width;
     if (mask.opposite != 0)
       for (Index h : faces) add(out, mask.opposite, topology.corner_vertex(Topology::prev(h)));

@@ -1,6 +1,7 @@
 #pragma once
 // Refinement level by level, with the topology of every level in full: slow, and plain enough to be believed.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,13 +21,20 @@ namespace subdivd::plain {
 struct Level {
   Topology topology;
   Sharpness sharpness;
+  // Sharpness of the halves of every edge, one level on: [e][0] next to its lower-numbered end, [e][1] to the
+  // other.
+  std::vector<std::array<float, 2>> halves;
   bool linear = false, linear_borders = false;  // see Channel
   std::vector<GridPoint> corners;  // per half-edge: where its corner lies on the grid of the base face
 };
 
-Level first_level(Topology topology, Sharpness sharpness);
-Level first_level(const Channel& channel);
+Level first_level(Topology topology, Sharpness sharpness, CreaseMethod method);
+// Channels have the mesh's sharpness but for their borders, at every level: under Chaikin's rule it decays
+// with the edges around a point of the *mesh*, of which a channel's vertex at a seam sees only some. `mesh`:
+// the level of the mesh that the channel's level belongs to.
+Level first_level(const Channel& channel, const Level& mesh);
 Result<Level> next_level(const Level& level, CreaseMethod method, const Budget& budget);
+Result<Level> next_level(const Level& channel, const Level& next_mesh, const Budget& budget);
 
 // Values of the next level's vertices: width scalars each. `linear`: midpoints, whatever the level's own
 // rules.

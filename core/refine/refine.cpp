@@ -69,7 +69,7 @@ struct Values {
   std::vector<Real> values;
 };
 
-// One mesh or channel through all levels, together with the values on it.
+// A mesh, or a channel of it, through all levels, together with the values on it.
 template <class Scheme, class Real>
 class Refinement {
  public:
@@ -80,21 +80,23 @@ class Refinement {
         base_(level.topology),
         level_(std::move(level)) {}
 
-  Result<void> run(std::vector<Values<Real>>& sets) {
-    for (Index step = 0; step < options_.level; ++step) {
-      for (Values<Real>& set : sets) {
-        auto values = plain::refine_values<Scheme, Real>(scheme_, options_.crease_method, level_, set.values,
-                                                         set.width, set.linear, budget_);
-        if (!values) return std::move(values).error();
-        set.values = std::move(*values);
-      }
-      auto next = plain::next_level(level_, options_.crease_method, budget_);
-      if (!next) return std::move(next).error();
-      level_ = std::move(*next);
+  // One level on. `next_mesh`: for a channel, the mesh one level on; for the mesh itself null.
+  Result<void> step(std::vector<Values<Real>>& sets, const plain::Level* next_mesh) {
+    for (Values<Real>& set : sets) {
+      auto values = plain::refine_values<Scheme, Real>(scheme_, options_.crease_method, level_, set.values,
+                                                       set.width, set.linear, budget_);
+      if (!values) return std::move(values).error();
+      set.values = std::move(*values);
     }
-    numbers_ = plain::closed_form_numbers(base_, options_.level, level_);
+    auto next = next_mesh != nullptr ? plain::next_level(level_, *next_mesh, budget_)
+                                     : plain::next_level(level_, options_.crease_method, budget_);
+    if (!next) return std::move(next).error();
+    level_ = std::move(*next);
     return {};
   }
+
+  void number() { numbers_ = plain::closed_form_numbers(base_, options_.level, level_); }
+  const plain::Level& level() const { return level_; }
 
   // The refined values in the order of the closed form.
   std::vector<Real> take(const Values<Real>& set) const {
@@ -105,13 +107,14 @@ class Refinement {
     return out;
   }
 
-  Result<std::vector<Real>> limits(const Values<Real>& set) const {
+  // `mesh`: the last level of the mesh; for the mesh itself its own.
+  Result<std::vector<Real>> limits(const Values<Real>& set, const plain::Level& mesh) const {
     if (level_.linear || set.linear) return take(set);
     std::vector<Real> out(set.values.size());
     auto limit = [&](Index v, const LimitRing<Scheme, Real>& ring) {
       std::ranges::copy(ring.position(), out.data() + std::size_t{numbers_[v]} * set.width);
     };
-    if (auto done = for_each_ring(set, limit); !done) return std::move(done).error();
+    if (auto done = for_each_ring(set, mesh, limit); !done) return std::move(done).error();
     return out;
   }
 
@@ -122,7 +125,7 @@ class Refinement {
       out.tangents_v.resize(points.values.size());
     }
     if (options_.normals) out.normals.resize(points.values.size());
-    return for_each_ring(points, [&](Index v, const LimitRing<Scheme, Real>& ring) {
+    return for_each_ring(points, level_, [&](Index v, const LimitRing<Scheme, Real>& ring) {
       const std::vector<Frame<Real>> frames = ring.frames();
       const std::size_t at = std::size_t{3} * numbers_[v];
       if (options_.tangents && !frames.empty()) {
@@ -135,12 +138,12 @@ class Refinement {
 
  private:
   template <class F>
-  Result<void> for_each_ring(const Values<Real>& set, F&& f) const {
+  Result<void> for_each_ring(const Values<Real>& set, const plain::Level& mesh, F&& f) const {
+    const Sharp own{level_.topology, level_.sharpness}, above{mesh.topology, mesh.sharpness};
     for (Index v = 0; v < level_.topology.vertex_count(); ++v) {
       if (v % 4096 == 0)
         if (auto stop = budget_.poll()) return *stop;
-      f(v, LimitRing<Scheme, Real>(scheme_, options_.crease_method, level_.topology, level_.sharpness, v,
-                                   set.values, set.width));
+      f(v, LimitRing<Scheme, Real>(scheme_, options_.crease_method, own, above, v, set.values, set.width));
     }
     return {};
   }
@@ -192,8 +195,8 @@ class Job {
     auto size = size_of<Real>(mesh_, options_, control_);
     if (!size) return std::move(size).error();
     if (auto fits = budget_.check_bytes(size->bytes); !fits) return std::move(fits).error();
-    for (auto part :
-         {&Job::refine_connectivity, &Job::refine_points, &Job::refine_face_values, &Job::refine_channels}) {
+    for (auto part : {&Job::refine_connectivity, &Job::gather, &Job::refine_levels, &Job::write_points,
+                      &Job::write_channels, &Job::write_face_values}) {
       if (auto stop = budget_.poll()) return *stop;
       if (auto done = (this->*part)(); !done) return std::move(done).error();
     }
@@ -220,32 +223,85 @@ class Job {
     return {};
   }
 
-  // Positions and the primvars that live on the points go through the levels together.
-  Result<void> refine_points() {
-    std::vector<Values<Real>> sets{{3, false, {mesh_.points.begin(), mesh_.points.end()}}};
-    std::vector<RefinedPrimvar<Real>*> owners{nullptr};
+  // The mesh, or one channel, with the values on it and where their refined form goes.
+  struct Part {
+    Refinement<Scheme, Real> refinement;
+    std::vector<Values<Real>> sets;
+    struct Target {
+      std::vector<Real>*values, *limit_values;
+    };
+    std::vector<Target> targets;
+    const Topology* topology;
+  };
+
+  // Positions and the primvars that live on the points make one part, every channel another.
+  Result<void> gather() {
+    plain::Level mesh = plain::first_level(control_.topology, control_.sharpness, options_.crease_method);
+    std::size_t channel = 0;
+    for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
+      if (mesh_.primvars[k].interpolation != Interpolation::face_varying) continue;
+      const Channel& own = control_.channels[channel++];
+      const Primvar& primvar = mesh_.primvars[k];
+      RefinedPrimvar<Real>& out = out_.primvars[k];
+      channels_.push_back(
+          {{scheme_, options_, plain::first_level(own, mesh), budget_},
+           {{primvar.element_size, false, gathered<Real>(primvar.values, primvar.element_size, own.values)}},
+           {{&out.values, &out.limit_values}},
+           &own.topology});
+      channel_primvars_.push_back(&out);
+    }
+    points_.emplace(Part{{scheme_, options_, std::move(mesh), budget_},
+                         {{3, false, {mesh_.points.begin(), mesh_.points.end()}}},
+                         {{&out_.points, &out_.limit_points}},
+                         &control_.topology});
     for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
       const Primvar& primvar = mesh_.primvars[k];
       const bool varying = primvar.interpolation == Interpolation::varying;
       if (!varying && primvar.interpolation != Interpolation::vertex) continue;
-      sets.push_back({primvar.element_size, varying, resolved_values<Real>(primvar)});
-      owners.push_back(&out_.primvars[k]);
+      points_->sets.push_back({primvar.element_size, varying, resolved_values<Real>(primvar)});
+      points_->targets.push_back({&out_.primvars[k].values, &out_.primvars[k].limit_values});
     }
-    Refinement<Scheme, Real> refinement(scheme_, options_,
-                                        plain::first_level(control_.topology, control_.sharpness), budget_);
-    if (auto done = refinement.run(sets); !done) return done;
-    for (std::size_t k = 0; k < sets.size(); ++k) {
-      (k == 0 ? out_.points : owners[k]->values) = refinement.take(sets[k]);
-      if (!options_.limit || sets[k].linear) continue;
-      auto limits = refinement.limits(sets[k]);
-      if (!limits) return std::move(limits).error();
-      (k == 0 ? out_.limit_points : owners[k]->limit_values) = std::move(*limits);
-    }
-    if (!options_.tangents && !options_.normals) return {};
-    return refinement.frames(sets[0], out_);
+    return {};
   }
 
-  Result<void> refine_face_values() {
+  // All parts level by level together: the channels' sharpness is the mesh's.
+  Result<void> refine_levels() {
+    for (Index level = 0; level < options_.level; ++level) {
+      if (auto done = points_->refinement.step(points_->sets, nullptr); !done) return done;
+      for (Part& part : channels_)
+        if (auto done = part.refinement.step(part.sets, &points_->refinement.level()); !done) return done;
+    }
+    return {};
+  }
+
+  Result<void> write(Part& part) {
+    part.refinement.number();
+    for (std::size_t k = 0; k < part.sets.size(); ++k) {
+      *part.targets[k].values = part.refinement.take(part.sets[k]);
+      if (!options_.limit || part.sets[k].linear) continue;
+      auto limits = part.refinement.limits(part.sets[k], points_->refinement.level());
+      if (!limits) return std::move(limits).error();
+      *part.targets[k].limit_values = std::move(*limits);
+    }
+    return {};
+  }
+
+  Result<void> write_points() {
+    if (auto done = write(*points_); !done) return done;
+    if (!options_.tangents && !options_.normals) return {};
+    return points_->refinement.frames(points_->sets[0], out_);
+  }
+
+  Result<void> write_channels() {
+    for (std::size_t k = 0; k < channels_.size(); ++k) {
+      if (auto done = write(channels_[k]); !done) return done;
+      channel_primvars_[k]->indices =
+          triangles_of(Numbering(*channels_[k].topology, options_.level), control_.holes);
+    }
+    return {};
+  }
+
+  Result<void> write_face_values() {
     for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
       const Primvar& primvar = mesh_.primvars[k];
       if (primvar.interpolation == Interpolation::constant)
@@ -257,32 +313,15 @@ class Job {
     return {};
   }
 
-  Result<void> refine_channels() {
-    std::size_t channel = 0;
-    for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
-      const Primvar& primvar = mesh_.primvars[k];
-      if (primvar.interpolation != Interpolation::face_varying) continue;
-      const Channel& own = control_.channels[channel++];
-      std::vector<Values<Real>> sets{
-          {primvar.element_size, false, gathered<Real>(primvar.values, primvar.element_size, own.values)}};
-      Refinement<Scheme, Real> refinement(scheme_, options_, plain::first_level(own), budget_);
-      if (auto done = refinement.run(sets); !done) return done;
-      out_.primvars[k].values = refinement.take(sets[0]);
-      out_.primvars[k].indices = triangles_of(Numbering(own.topology, options_.level), control_.holes);
-      if (!options_.limit) continue;
-      auto limits = refinement.limits(sets[0]);
-      if (!limits) return std::move(limits).error();
-      out_.primvars[k].limit_values = std::move(*limits);
-    }
-    return {};
-  }
-
   Scheme scheme_;
   const ControlMesh& mesh_;
   const RefineOptions& options_;
   const Budget& budget_;
   Control control_;
   RefinedMesh<Real> out_;
+  std::optional<Part> points_;
+  std::vector<Part> channels_;
+  std::vector<RefinedPrimvar<Real>*> channel_primvars_;
 };
 
 }  // namespace

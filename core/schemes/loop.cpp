@@ -45,8 +45,10 @@ EdgeMask Loop::edge_mask(const EdgeRing& ring) const {
   const EdgeMask smooth{3.0 / 8, 1.0 / 8 * 2 / std::max<Index>(ring.face_count, 1)};
   const EdgeMask crease{1.0 / 2, 0};
   if (!is_sharp(ring.sharpness)) return smooth;
-  if (ring.sharpness >= 1 || (is_sharp(ring.child_sharpness[0]) && is_sharp(ring.child_sharpness[1])))
-    return crease;
+  if (is_sharp(ring.child_sharpness[0]) && is_sharp(ring.child_sharpness[1])) return crease;
+  // Under Chaikin's rule an edge of sharpness above 1 may have a half that runs out at once: the blend is
+  // then beyond the crease, 1.2 crease - 0.2 smooth. So does Far 3.5, the reference everybody has, though its
+  // comment says that it clamps; under the uniform method this cannot happen.
   const double s = ring.sharpness;
   return {s * crease.end + (1 - s) * smooth.end, (1 - s) * smooth.opposite};
 }

@@ -33,7 +33,7 @@ TEST(Split, counts_are_those_of_refining_step_by_step) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
     const Topology base(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
-    plain::Level at = plain::first_level(base, control_sharpness(mesh, base));
+    plain::Level at = plain::first_level(base, control_sharpness(mesh, base), CreaseMethod::uniform);
     for (Index level = 1; level <= 3; ++level) {
       at = *plain::next_level(at, CreaseMethod::uniform, {});
       const LevelCounts counts =
