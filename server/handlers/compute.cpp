@@ -7,6 +7,7 @@
 #include "core/curves/cubic.h"
 #include "core/oracle/verify.h"
 #include "core/refine/refine.h"
+#include "proto/prepare.h"
 
 namespace subdivd::server {
 namespace {
@@ -21,40 +22,17 @@ class Stopwatch {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-RefineOptions mesh_options(const proto::Options& options) {
-  RefineOptions result;
-  result.level = options.level;
-  result.loop_weights = options.loop_weights;
-  result.crease_method = options.crease_method;
-  result.limit = options.limit;
-  result.normals = options.normals;
-  return result;
-}
-
-CurveOptions curve_options(const proto::Options& options) {
-  CurveOptions result;
-  result.level = options.level;
-  result.limit = options.limit;
-  return result;
-}
-
-// Puts the place of a part ("meshes", 3) before the place inside it.
-Error inside(Error error, const char* list, std::size_t number) {
-  error.where.insert(error.where.begin(), {PathStep(std::string(list)), PathStep(std::uint64_t{number})});
-  return error;
-}
-
 template <class Real>
 Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request, const Budget& budget) {
   proto::RefineAnswer<Real> answer;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto refined = refine<Real>(request.meshes[i], mesh_options(request.options), budget);
-    if (!refined) return inside(std::move(refined).error(), "meshes", i);
+    auto refined = refine<Real>(request.meshes[i], proto::mesh_options(request), budget);
+    if (!refined) return proto::blame_input(request, std::move(refined).error(), "meshes", i);
     answer.meshes.push_back(std::move(refined).value());
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    auto refined = refine<Real>(request.curves[i], curve_options(request.options), budget);
-    if (!refined) return inside(std::move(refined).error(), "curves", i);
+    auto refined = refine<Real>(request.curves[i], proto::curve_options(request), budget);
+    if (!refined) return proto::blame_input(request, std::move(refined).error(), "curves", i);
     answer.curves.push_back(std::move(refined).value());
   }
   return answer;
@@ -65,13 +43,13 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
   oracle::Report report;
   report.oracle = oracle::oracle_name();
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto verified = oracle::verify<Real>(request.meshes[i], mesh_options(request.options), budget);
-    if (!verified) return inside(std::move(verified).error(), "meshes", i);
+    auto verified = oracle::verify<Real>(request.meshes[i], proto::mesh_options(request), budget);
+    if (!verified) return proto::blame_input(request, std::move(verified).error(), "meshes", i);
     report.meshes.push_back(std::move(verified).value());
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    auto verified = oracle::verify<Real>(request.curves[i], curve_options(request.options), budget);
-    if (!verified) return inside(std::move(verified).error(), "curves", i);
+    auto verified = oracle::verify<Real>(request.curves[i], proto::curve_options(request), budget);
+    if (!verified) return proto::blame_input(request, std::move(verified).error(), "curves", i);
     report.curves.push_back(std::move(verified).value());
   }
   const auto passed = [](const auto& part) { return part.passed; };
