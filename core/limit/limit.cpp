@@ -70,7 +70,7 @@ LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, co
     : scheme_(scheme), method_(method), width_(width) {
   gather(own, v, values);
   gather_sectors(own.topology, v);
-  if (settled()) return;
+  if (wedges_.empty() || settled()) return;  // a point without faces stays, sharp or not
   gather_decay(own, mesh, v);
   while (!settled()) step();
 }

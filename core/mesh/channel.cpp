@@ -130,8 +130,10 @@ class Rules {
       const bool sharp_corner = spans[k].disjoint || (spans[k].faces == 1 && mode_ != none);
       vertices[values[k]] = all_sharp || sharp_corner ? kInfiniteSharpness : base_sharpness_.vertices[v];
     }
-    // One of two values is held by semi-sharp edges inside its fan: the other stays a corner as long.
-    if (dependent && !all_sharp && spans.size() == 2 && spans[0].semi_sharp != spans[1].semi_sharp)
+    // One of two values is held by semi-sharp edges inside its fan: the other stays a corner as long, unless
+    // the point's own semi-sharpness holds both.
+    if (dependent && !is_semi_sharp(base_sharpness_.vertices[v]) && !all_sharp && spans.size() == 2 &&
+        spans[0].semi_sharp != spans[1].semi_sharp)
       for (std::size_t k = 0; k < 2; ++k)
         if (spans[k].semi_sharp == 0)
           vertices[values[k]] = std::max(vertices[values[k]], levels_held(v, values[1 - k]));
@@ -158,10 +160,14 @@ class Rules {
         own.push_back(edges[k]);
         own_next.push_back(next[k]);
       }
-      if (std::ranges::none_of(own_next, is_semi_sharp))
-        return levels + fractional_weight(crease_method_, vertex, decay(vertex), own, own_next);
-      edges.swap(next);
-      vertex = decay(vertex);
+      if (std::ranges::any_of(own_next, is_semi_sharp)) {
+        edges.swap(next);
+        vertex = decay(vertex);
+        continue;
+      }
+      // While semi-sharp edges elsewhere at the point last, the value keeps its corner for this whole step.
+      if (std::ranges::any_of(next, is_semi_sharp)) return levels + 1;
+      return levels + fractional_weight(crease_method_, vertex, decay(vertex), own, own_next);
     }
   }
 

@@ -149,6 +149,17 @@ TEST(Refine, provenance_names_the_place_of_every_vertex) {
     ASSERT_EQ(refined->triangle_faces[t], t / 16);
 }
 
+// A tag on a point without faces used to step a ring that is empty.
+TEST(Refine, an_unreferenced_point_with_a_semi_sharp_corner_stays_where_it_is) {
+  ControlMesh mesh = shapes::tetrahedron();
+  mesh.points.insert(mesh.points.end(), {7, 8, 9});
+  shapes::corner(mesh, 4, 2.5f);
+  const auto refined = refine<double>(mesh, everything(1), {});
+  ASSERT_TRUE(refined.ok());
+  EXPECT_EQ(refined->limit_points[12], 7);
+  EXPECT_EQ(refined->normals[12], 0);
+}
+
 TEST(Normals, of_a_cone_tip_point_outwards) {
   const auto refined = refine<double>(shapes::double_pyramid(7), everything(2), {});
   const double* n = refined->normals.data();
