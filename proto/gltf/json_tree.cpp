@@ -147,8 +147,6 @@ void print_string(const std::string& value, std::string& out) {
 
 }  // namespace
 
-Json::Json(Object value) : value_(std::move(value)) {}
-
 Json Json::number(Count value) { return raw(std::to_string(value)); }
 
 Json Json::number(double value) {
@@ -246,6 +244,12 @@ std::string Json::text() const {
 }
 
 Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
+  // The parser takes NUL for the end: what hides behind one would be read by others and not by us.
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    if (text.find_first_not_of('\0', nul) != std::string_view::npos)
+      return Error{ErrorCode::malformed, "the glTF JSON has a NUL at byte " + std::to_string(nul), {}, 0, 0};
+    text = text.substr(0, nul);
+  }
   TreeBuilder builder(limits);
   const bool complete = nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
   if (builder.error()) return *builder.error();

@@ -23,12 +23,17 @@ class Json {
   using Array = std::vector<Json>;
   using Object = std::vector<Member>;
 
-  Json() = default;                                        // null
-  Json(bool value) : value_(value) {}                      // NOLINT: implicit by design
-  Json(std::string value) : value_(std::move(value)) {}    // NOLINT: implicit by design
-  Json(const char* value) : value_(std::string(value)) {}  // NOLINT: implicit by design
-  Json(Array value) : value_(std::move(value)) {}          // NOLINT: implicit by design
-  Json(Object value);                                      // NOLINT: implicit by design
+  Json();                   // null
+  Json(bool value);         // NOLINT: implicit by design
+  Json(std::string value);  // NOLINT: implicit by design
+  Json(const char* value);  // NOLINT: implicit by design
+  Json(Array value);        // NOLINT: implicit by design
+  Json(Object value);       // NOLINT: implicit by design
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
 
   static Json number(Count value);
   static Json number(double value);   // shortest text that reads back to the same double
@@ -69,6 +74,19 @@ struct Json::Member {
   std::string name;
   Json value;
 };
+
+// Only here, where Member is complete.
+inline Json::Json() = default;
+inline Json::Json(bool value) : value_(value) {}
+inline Json::Json(std::string value) : value_(std::move(value)) {}
+inline Json::Json(const char* value) : value_(std::string(value)) {}
+inline Json::Json(Array value) : value_(std::move(value)) {}
+inline Json::Json(Object value) : value_(std::move(value)) {}
+inline Json::Json(const Json& other) = default;
+inline Json::Json(Json&& other) noexcept = default;
+inline Json& Json::operator=(const Json& other) = default;
+inline Json& Json::operator=(Json&& other) noexcept = default;
+inline Json::~Json() = default;
 
 struct JsonLimits {
   Index max_depth = 64;

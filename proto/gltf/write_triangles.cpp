@@ -103,7 +103,6 @@ Vector flat_normal(const std::vector<float>& positions, const std::vector<Index>
     const Vector n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     if (const double length = std::hypot(n[0], n[1], n[2]); length > 0 && std::isfinite(length))
       return {n[0] / length, n[1] / length, n[2] / length};
-    break;
   }
   return {0, 0, 1};
 }

@@ -60,6 +60,11 @@ TEST(JsonTree, refuses_what_is_no_json) {
     EXPECT_EQ(error_of(text).code, ErrorCode::malformed) << text;
 }
 
+TEST(JsonTree, refuses_what_hides_behind_a_nul) {
+  EXPECT_EQ(error_of(std::string("{}\0{}", 5)).code, ErrorCode::malformed);
+  EXPECT_TRUE(parse_json(std::string_view("{}\0\0", 4), {}).ok());
+}
+
 TEST(JsonTree, knows_whole_numbers) {
   const auto parsed = parse_json("[0,9007199254740992,9007199254740993,-1,1.0,1e2,true]", {});
   ASSERT_TRUE(parsed.ok());
