@@ -1,5 +1,5 @@
-// JSON bodies. What is accepted is JSON and has passed check(); small requests are refined, and their answers
-// are valid requests again.
+// JSON bodies. What is accepted is JSON with the same numbers for another parser, and has passed check();
+// small requests are refined, and their answers are valid requests again.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/curves/cubic.h"
 #include "core/refine/refine.h"
@@ -20,6 +21,29 @@ using namespace subdivd;
 
 void require(bool fact) {
   if (!fact) std::abort();
+}
+
+// Every number of an array of any depth, by another parser.
+void flatten(const nlohmann::json& array, std::vector<double>& numbers) {
+  for (const nlohmann::json& element : array) {
+    if (element.is_array())
+      flatten(element, numbers);
+    else
+      numbers.push_back(element.get<double>());
+  }
+}
+
+void require_same_points(const nlohmann::json& document, const proto::RefineRequest& request) {
+  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    std::vector<double> expected;
+    flatten((request.single_mesh_at_top ? document : document["meshes"][i])["points"], expected);
+    require(request.meshes[i].points == expected);
+  }
+  for (std::size_t i = 0; i < request.curves.size(); ++i) {
+    std::vector<double> expected;
+    flatten(document["curves"][i]["points"], expected);
+    require(request.curves[i].points == expected);
+  }
 }
 
 std::string text_of(const proto::Payload& payload) {
@@ -66,7 +90,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const bool marked = body.starts_with("\xEF\xBB\xBF");
-  require(nlohmann::json::accept(body.substr(marked ? 3 : 0)));
+  const nlohmann::json document = nlohmann::json::parse(body.substr(marked ? 3 : 0), nullptr, false);
+  require(!document.is_discarded());
+  require_same_points(document, *request);
   for (const ControlMesh& mesh : request->meshes) require(mesh.check().ok());
   for (const ControlCurves& curves : request->curves) require(curves.check().ok());
   const bool plain = request->options.format.value_or(proto::Format::json) == proto::Format::json &&

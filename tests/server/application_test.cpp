@@ -260,6 +260,12 @@ TEST(Application, serves_its_description) {
   EXPECT_EQ(response.header("content-type"), "application/json");
   EXPECT_TRUE(holds(response, "\"openapi\""));
 }
+TEST(Application, describes_every_route) {
+  const RunningApplication server;
+  const RawResponse response = ask(server.port, get("/openapi.json"));
+  for (const Route& route : server.application.router().routes())
+    EXPECT_TRUE(holds(response, "\"" + std::string(route.path) + "\":")) << route.path;
+}
 TEST(Application, serves_a_page_that_names_its_version) {
   const RunningApplication server;
   const RawResponse response = ask(server.port, get("/"));
