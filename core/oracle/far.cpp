@@ -106,7 +106,7 @@ void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Re
     const Far::ConstIndexArray vertices = level.GetFaceVertices(face);
     const Index base = grid.base_faces[static_cast<std::size_t>(face)];
     for (int k = 0; k < 3; ++k) {
-      const GridPoint corner = grid.corners[static_cast<std::size_t>(3 * face + k)];
+      const GridPoint corner = grid.corners[3 * static_cast<std::size_t>(face) + static_cast<std::size_t>(k)];
       Provenance& place = result.vertices[static_cast<std::size_t>(vertices[k])].place;
       if (base < place.face) place = {base, corner.i, corner.j};  // kNoIndex is the largest
       result.faces.push_back(static_cast<Index>(vertices[k]));
