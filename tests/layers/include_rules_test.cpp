@@ -61,7 +61,7 @@ TEST(ThisTree, draws_only_the_arrows_of_the_design) {
 TEST_F(IncludeRules, accepts_a_tree_without_strays) { EXPECT_THAT(check_includes(root_), IsEmpty()); }
 
 TEST_F(IncludeRules, accepts_an_arrow_that_is_drawn) {
-  EXPECT_THAT(planted("core/limit/a.cpp", "#include \"core/refine/plain.h\""), IsEmpty());
+  EXPECT_THAT(planted("core/refine/a.cpp", "#include \"core/limit/limit.h\""), IsEmpty());
 }
 
 TEST_F(IncludeRules, rejects_core_including_proto) {

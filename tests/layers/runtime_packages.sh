@@ -9,7 +9,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 libraries=$(objdump -p "$SUBDIVD_DAEMON" | awk '$1 == "NEEDED" { print $2 }')
 for library in $libraries; do
-  dpkg --search "*/$library" | sed 's/[:,].*//' | sort -u
+  # the multiarch folder alone: a machine for two word sizes has the same names elsewhere
+  dpkg --search "*-linux-gnu/$library" | sed 's/[:,].*//' | sort -u
 done | sort -u >"$work/linked"
 # What every image with a C++ program and debian:bookworm-slim has: see the dependencies of libosdcpu3.5.0.
 printf '%s\n' libc6 libgcc-s1 libstdc++6 >"$work/given"
