@@ -29,6 +29,14 @@ bool set_number(Config& config, std::string_view text) {
   return value.has_value();
 }
 
+// Seconds, up to a day; the least in hundredths, for clang 14 takes no double as a template argument.
+template <auto Field, int kLeastHundredths>
+bool set_seconds(Config& config, std::string_view text) {
+  const auto value = number_in<double>(text, kLeastHundredths / 100.0, 86400);
+  if (value) config.*Field = *value;
+  return value.has_value();
+}
+
 // "1000", "64KiB", "256MiB", "1GiB"
 template <auto Field>
 bool set_bytes(Config& config, std::string_view text) {
@@ -100,13 +108,13 @@ constexpr std::array kSettings = {
   Setting{"max-level", "8", "0 to 15",
           "Highest refinement level that a request may ask for", set_number<&Config::max_level, 0, 15>},
   Setting{"deadline-seconds", "60", "0.01 to 86400",
-          "How long a request may be computed, waiting included", set_number<&Config::deadline_seconds, 0.01, 86400>},
+          "How long a request may be computed, waiting included", set_seconds<&Config::deadline_seconds, 1>},
   Setting{"read-timeout", "30", "0.01 to 86400",
-          "Seconds for a request's head, for its body and for sending the answer, plus about one for every MiB", set_number<&Config::read_timeout, 0.01, 86400>},
+          "Seconds for a request's head, for its body and for sending the answer, plus about one for every MiB", set_seconds<&Config::read_timeout, 1>},
   Setting{"idle-timeout", "2", "0.01 to 86400",
-          "Seconds between two requests of one connection", set_number<&Config::idle_timeout, 0.01, 86400>},
+          "Seconds between two requests of one connection", set_seconds<&Config::idle_timeout, 1>},
   Setting{"drain-seconds", "30", "0 to 86400",
-          "How long requests in flight may go on after SIGTERM", set_number<&Config::drain_seconds, 0, 86400>},
+          "How long requests in flight may go on after SIGTERM", set_seconds<&Config::drain_seconds, 0>},
   Setting{"cors-origins", "*", "*, none or origins with commas between them",
           "Web pages of these origins may read answers", set_origins},
   Setting{"log-level", "info", "debug, info, warn, error or off",

@@ -100,7 +100,7 @@ Connection::ReadHead Connection::read_head(std::string& text, Refusal& refusal) 
 
 std::optional<Refusal> Connection::understand(const std::string& text, Head& head, Request& request) const {
   auto parsed = parse_head(text);
-  if (Refusal* refusal = std::get_if<Refusal>(&parsed)) return *std::move(refusal);
+  if (Refusal* refusal = std::get_if<Refusal>(&parsed)) return std::move(*refusal);
   head = std::get<Head>(std::move(parsed));
   request.method = head.method;
   request.target = head.target;
