@@ -11,7 +11,7 @@ namespace subdivd::test {
 namespace {
 
 constexpr unsigned kSeed = 20240117;
-constexpr int kMutations = 20000;
+constexpr int kMutations = 100000;
 
 std::vector<std::string> seeds() {
   GltfBuilder rich = seamed_octahedron();
