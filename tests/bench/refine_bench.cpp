@@ -1,56 +1,133 @@
-// Control mesh to refined mesh, in memory: our engine beside Far as the oracle drives it.
+// `./dev bench`: everything that README.md names, each as one benchmark of Google's library, and the table.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
+#include <unistd.h>
 
-#include "core/oracle/far.h"
-#include "core/refine/refine.h"
-#include "tests/shapes/build.h"
+#include <cstdlib>
+#include <deque>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <string_view>
 
-namespace subdivd {
+#include "tests/bench/experiments.h"
+
+namespace subdivd::bench {
 namespace {
 
-ControlMesh icosahedron() { return shapes::icosahedron(); }
-ControlMesh torus_20k() { return shapes::big_torus(100, 100, 1); }
+struct Flags {
+  bool quick = false;
+  std::string json;
+};
 
-RefineOptions options_of(const benchmark::State& state) {
-  RefineOptions options;
-  options.level = static_cast<Index>(state.range(0));
-  return options;
+// Takes our flags out of the arguments; the rest is Google Benchmark's.
+Flags take_flags(int& argc, char** argv) {
+  Flags flags;
+  int kept = 1;
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view word = argv[k];
+    if (word == "--quick")
+      flags.quick = true;
+    else if (word == "--json" && k + 1 < argc)
+      flags.json = argv[++k];
+    else if (word.starts_with("--json="))
+      flags.json = word.substr(7);
+    else
+      argv[kept++] = argv[k];
+  }
+  argc = kept;
+  argv[argc] = nullptr;
+  return flags;
 }
 
-void count_triangles(benchmark::State& state, const ControlMesh& mesh) {
-  const auto triangles = static_cast<double>(mesh.face_count() << (2 * state.range(0)));
-  state.counters["ns_per_triangle"] = benchmark::Counter(
-      triangles * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+// Memory once had is kept, and the heap lies on huge pages where the kernel gives them: for all contestants
+// alike, the cost of new pages is out of the figures. The latter can only be asked for before the program
+// starts.
+void keep_allocator_warm(char** argv) {
+  constexpr const char* kTunables = "glibc.malloc.hugetlb=1";
+  if (std::getenv("GLIBC_TUNABLES") == nullptr) {
+    ::setenv("GLIBC_TUNABLES", kTunables, 1);
+    ::execv("/proc/self/exe", argv);  // when it fails, the heap lies on small pages
+  }
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, -1);
+  ::mallopt(M_TOP_PAD, 256 << 20);
 }
 
-template <class Shape>
-void ours(benchmark::State& state, Shape shape) {
-  const ControlMesh mesh = shape();
-  for (auto _ : state) benchmark::DoNotOptimize(refine<float>(mesh, options_of(state), {}));
-  count_triangles(state, mesh);
+// One line per benchmark while they run; the table comes at the end.
+class Progress : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs)
+      if (run.error_occurred) {
+        failed = true;
+        std::cerr << run.run_name.function_name << ": " << run.error_message << '\n';
+      } else {
+        std::cerr << run.run_name.function_name << ' ' << run.GetAdjustedRealTime() << '\n';
+      }
+  }
+  bool failed = false;
+};
+
+// `experiment` runs its own rounds, for the contestants take turns; its median is what is reported to the
+// library.
+void add(const std::string& name, const std::function<double()>& experiment) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [experiment](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   const double ms = experiment();
+                                   if (ms <= 0) state.SkipWithError("no answer, or not Far's");
+                                   state.SetIterationTime(ms / 1000);
+                                 }
+                               })
+      ->Iterations(1)
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
 }
 
-template <class Shape>
-void ours_with_limits(benchmark::State& state, Shape shape) {
-  const ControlMesh mesh = shape();
-  RefineOptions options = options_of(state);
-  options.limit = options.normals = true;
-  for (auto _ : state) benchmark::DoNotOptimize(refine<float>(mesh, options, {}));
-  count_triangles(state, mesh);
+void add_cell(const Case& cell, const Pace& pace, Results& results) {
+  const std::string name = cell.name();
+  add("total/" + name, [=, &results] { return same_answer(cell) ? time_total(cell, pace, results) : 0; });
+  add("limits/" + name, [=, &results] { return time_limits(cell, pace, results); });
+  add("again/" + name, [=, &results] { return time_again(cell, pace, results); });
+  add("threads/" + name, [=, &results] { return time_threads(cell, pace, results); });
+  add("memory/" + name, [=, &results] { return count_memory(cell, results); });
+  if (name == "model6k.L4") add("http/" + name, [=, &results] { return time_http(cell, pace, results); });
 }
 
-template <class Shape>
-void far(benchmark::State& state, Shape shape) {
-  const ControlMesh mesh = shape();
-  for (auto _ : state) benchmark::DoNotOptimize(oracle::far_refine<float>(mesh, options_of(state), {}));
-  count_triangles(state, mesh);
+int run(int argc, char** argv) {
+  const Flags flags = take_flags(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const Pace pace = flags.quick ? kQuick : kThorough;
+  Results results;
+  std::deque<Workload> workloads;
+  for (const auto& make : {icosahedron, blob100k, torus1m, model6k}) {
+    const Workload& workload = workloads.emplace_back(make());
+    must(workload.mesh.check());
+    for (const Index level : workload.levels) add_cell({&workload, level}, pace, results);
+    const Case highest{&workload, workload.levels.back()};
+    add("plan/" + workload.name, [=, &results] { return time_plan(highest, pace, results); });
+  }
+  Progress progress;
+  benchmark::RunSpecifiedBenchmarks(&progress);
+  results.print(std::cout);
+  if (!flags.json.empty()) {
+    std::ofstream file(flags.json);
+    results.write_json(file);
+    file.close();
+    if (!file) std::cerr << "cannot write " << flags.json << '\n';
+    progress.failed |= !file;
+  }
+  return progress.failed ? 1 : 0;
 }
-
-BENCHMARK_CAPTURE(ours, icosahedron, icosahedron)->Arg(6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(far, icosahedron, icosahedron)->Arg(6)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(ours, torus_20k, torus_20k)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(far, torus_20k, torus_20k)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(ours_with_limits, torus_20k, torus_20k)->DenseRange(1, 2)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace subdivd
+}  // namespace subdivd::bench
+
+int main(int argc, char** argv) {
+  subdivd::bench::keep_allocator_warm(argv);
+  return subdivd::bench::run(argc, argv);
+}

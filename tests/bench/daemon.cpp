@@ -1,0 +1,111 @@
+#include "tests/bench/daemon.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace subdivd::bench {
+namespace {
+
+constexpr int kPatienceMs = 30'000;
+constexpr std::size_t kHeadRoom = 16384;  // for an answer's head
+
+std::string first_line(int fd) {
+  std::string line;
+  char c = 0;
+  pollfd entry{fd, POLLIN, 0};
+  while (::poll(&entry, 1, kPatienceMs) > 0 && ::read(fd, &c, 1) == 1 && c != '\n') line += c;
+  return line;
+}
+
+// The number after `field` in an answer's head; 0 when it is not there.
+std::size_t number_after(std::string_view head, std::string_view field) {
+  const auto found = std::ranges::search(head, field, [](char a, char b) { return (a | 32) == (b | 32); });
+  return found.empty() ? 0 : std::strtoull(&*found.end(), nullptr, 10);
+}
+
+}  // namespace
+
+Daemon::Daemon() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;
+  pid_ = ::fork();
+  if (pid_ == 0) {
+    ::dup2(ends[1], STDOUT_FILENO);
+    // As it is started by anybody: this program's settings of the allocator are not the daemon's.
+    ::unsetenv("GLIBC_TUNABLES");
+    ::execl(SUBDIVD_BINARY_DIR "/subdivd", "subdivd", "--port", "0", "--log-level", "error", nullptr);
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  out_ = ends[0];
+  const std::string line = first_line(out_);
+  port_ = std::atoi(line.c_str() + line.rfind(':') + 1);
+}
+
+Daemon::~Daemon() {
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  if (out_ >= 0) ::close(out_);
+}
+
+Client::Client(int port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), answer_(kHeadRoom) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<in_port_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const timeval patience{kPatienceMs / 1000, 0};
+  ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  ::setsockopt(fd_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  if (::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+    ::close(fd_);
+    fd_ = -1;
+  }
+}
+
+Client::~Client() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::size_t Client::receive(std::size_t at) {
+  const ssize_t got = ::recv(fd_, answer_.data() + at, answer_.size() - at, 0);
+  return got > 0 ? static_cast<std::size_t>(got) : 0;
+}
+
+std::size_t Client::exchange(std::string_view request) {
+  while (!request.empty()) {
+    const ssize_t sent = ::send(fd_, request.data(), request.size(), MSG_NOSIGNAL);
+    if (sent <= 0) return 0;
+    request.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  std::size_t have = 0, body = std::string_view::npos;
+  while (body == std::string_view::npos) {
+    const std::size_t got = receive(have);
+    if (got == 0) return 0;
+    have += got;
+    const std::size_t end = std::string_view(answer_.data(), have).find("\r\n\r\n");
+    if (end != std::string_view::npos) body = end + 4;
+  }
+  const std::string head(answer_.data(), body);
+  const std::size_t length = number_after(head, "content-length: ");
+  if (!head.starts_with("HTTP/1.1 200") || length == 0) return 0;
+  if (answer_.size() < body + length) answer_.resize(body + length);
+  while (have < body + length) {
+    const std::size_t got = receive(have);
+    if (got == 0) return 0;
+    have += got;
+  }
+  return length;
+}
+
+}  // namespace subdivd::bench

@@ -1,0 +1,43 @@
+#pragma once
+// The daemon in a process of its own, and a client that costs as little as a client can.
+
+#include <sys/types.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace subdivd::bench {
+
+class Daemon {
+ public:
+  Daemon();  // port() is 0 when it does not start
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+  int port() const { return port_; }
+
+ private:
+  pid_t pid_ = -1;
+  int out_ = -1;
+  int port_ = 0;
+};
+
+// One connection, kept open.
+class Client {
+ public:
+  explicit Client(int port);
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  // Sends the request and reads the whole answer into a buffer that stays. The body's length; 0 unless the
+  // answer is 200 and complete.
+  std::size_t exchange(std::string_view request);
+
+ private:
+  std::size_t receive(std::size_t at);
+  int fd_;
+  std::vector<char> answer_;
+};
+
+}  // namespace subdivd::bench
