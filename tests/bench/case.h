@@ -9,7 +9,9 @@
 
 #include "core/base/buffer.h"
 #include "core/oracle/far_timing.h"
+#include "core/refine/evaluate.h"
 #include "core/refine/plan.h"
+#include "core/refine/triangles.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/bench/workloads.h"
 
@@ -66,7 +68,7 @@ inline OurTimes run_ours(const Case& cell, Index threads, Output& out) {
   must(evaluate<float>(plan.mesh(), cell.level, cell.workload->points, 3, Smoothing::smooth,
                        {.values = out.points.data()}, threads, {}));
   times.evaluate = stopwatch.lap();
-  must(write_triangles(plan.mesh(), cell.level, plan.holes(), out.triangles.data(), threads, {}));
+  must(write_triangles(plan.mesh().topology(), cell.level, plan.holes(), out.triangles.data(), threads, {}));
   times.indices = stopwatch.lap();
   return times;
 }

@@ -127,7 +127,7 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     const double without = stopwatch.lap();
     evaluate_ours(plan, {.values = out.points.data(), .limits = limits.data(), .normals = normals.data()});
     const double with = stopwatch.lap();
-    must(write_triangles(plan.mesh(), cell.level, plan.holes(), out.triangles.data(), 1, {}));
+    must(write_triangles(plan.mesh().topology(), cell.level, plan.holes(), out.triangles.data(), 1, {}));
     return {{"limits", with - without}, {"total_limits", planned + with + stopwatch.lap()}};
   });
   contest.enter("Far", [&]() -> Laps {
