@@ -5,6 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/mesh/scan.h"
+
 namespace subdivd {
 namespace {
 
@@ -17,6 +19,7 @@ std::string number(Count n) { return std::to_string(n); }
 Path at(std::string field, Count index) { return {std::move(field), std::uint64_t{index}}; }
 
 Result<void> check_finite(const std::vector<double>& values, Path where) {
+  if (all_finite(values)) return {};
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k])) {
       where.emplace_back(std::uint64_t{k});
@@ -26,6 +29,7 @@ Result<void> check_finite(const std::vector<double>& values, Path where) {
 }
 
 Result<void> check_indices(const std::vector<Index>& indices, Count count, std::string_view of, Path where) {
+  if (all_below(indices, count)) return {};
   for (std::size_t k = 0; k < indices.size(); ++k)
     if (indices[k] >= count) {
       where.emplace_back(std::uint64_t{k});
@@ -95,6 +99,7 @@ Result<void> check_faces(const ControlMesh& mesh) {
           check_indices(mesh.face_vertex_indices, mesh.point_count(), "points", {"faceVertexIndices"});
       !fine)
     return fine;
+  if (!any_repeats(mesh.face_vertex_indices)) return {};
   for (std::size_t h = 0; h < mesh.face_vertex_indices.size(); h += 3) {
     const Index* v = mesh.face_vertex_indices.data() + h;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
@@ -235,11 +240,8 @@ Result<void> check_render_meshes(const ControlMesh& mesh) {
     if (auto fine = check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k));
         !fine)
       return fine;
-    for (std::size_t h = 0; h < render.indices.size(); h += 3) {
-      const Index* v = render.indices.data() + h;
-      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-        return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
-    }
+    if (any_repeats(render.indices))
+      return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
   }
   return {};
 }

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "core/mesh/scan.h"
+
 namespace subdivd {
 namespace {
 
@@ -124,6 +126,7 @@ Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh) {
   if (!triangles) {
     if (auto fine = mesh.check(); !fine) return std::move(fine).error();
   }
+  if (!any_repeats(mesh.face_vertex_indices)) return std::vector<Index>{};
   const Count faces = mesh.face_count();
   std::vector<unsigned char> dropped(faces, 0);
   std::set<std::pair<Index, Index>> edges;
@@ -135,7 +138,6 @@ Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh) {
       for (int k = 0; k < 3; ++k) edges.insert(edge_key(v[k], v[(k + 1) % 3]));
   }
   const auto count = static_cast<Count>(std::ranges::count(dropped, 1));
-  if (count == 0) return std::vector<Index>{};
   if (!can_be_rearranged(mesh)) {
     auto fine = mesh.check();  // names the fault
     assert(!fine.ok());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "tests/shapes/build.h"
@@ -79,6 +80,38 @@ TEST(ControlMeshCheck, rejects_a_face_that_repeats_a_vertex) {
   ControlMesh mesh = cube();
   mesh.face_vertex_indices[4] = mesh.face_vertex_indices[3];
   expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexIndices", index(4)}));
+}
+
+// Whole blocks are judged at once: the fault may stand anywhere in one, or behind the last.
+TEST(ControlMeshCheck, finds_a_repeated_vertex_in_any_face) {
+  for (Index faces = 1; faces < 14; ++faces)
+    for (Index bad = 0; bad < faces; ++bad)
+      for (const auto& [from, to, blamed] : {std::array{0u, 1u, 1u}, {1u, 2u, 2u}, {0u, 2u, 2u}}) {
+        ControlMesh mesh;
+        mesh.points.assign(9 * faces, 0.5);
+        for (Index corner = 0; corner < 3 * faces; ++corner) mesh.face_vertex_indices.push_back(corner);
+        ASSERT_TRUE(mesh.check().ok());
+        mesh.face_vertex_indices[3 * bad + to] = mesh.face_vertex_indices[3 * bad + from];
+        expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexIndices", index(3 * bad + blamed)}));
+      }
+}
+
+// Neighbours in different faces are no repetition.
+TEST(ControlMeshCheck, accepts_faces_that_begin_where_the_one_before_ends) {
+  ControlMesh mesh;
+  mesh.points.assign(9, 0.5);
+  for (int face = 0; face < 20; ++face)
+    for (const Index corner : {0u, 1u, 2u})
+      mesh.face_vertex_indices.push_back(face % 2 == 0 ? corner : 2 - corner);
+  EXPECT_TRUE(mesh.check().ok());
+}
+
+TEST(ControlMeshCheck, finds_a_point_that_is_not_finite_anywhere) {
+  for (std::size_t at = 0; at < cube().points.size(); ++at) {
+    ControlMesh mesh = cube();
+    mesh.points[at] = -std::numeric_limits<double>::infinity();
+    expect_fault(mesh, ErrorCode::not_finite, path({"points", index(at)}));
+  }
 }
 
 TEST(ControlMeshCheck, rejects_a_crease_of_one_point) {

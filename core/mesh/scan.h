@@ -1,0 +1,72 @@
+#pragma once
+// Whole arrays judged without a branch per element. They only say whether there is a fault; where it is, a
+// second and slow pass finds out.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "core/base/index.h"
+
+namespace subdivd {
+namespace detail {
+
+// x - x is +0 for every number, and NaN for NaN and the infinities.
+template <class Bits, class Real>
+bool differences_vanish(std::span<const Real> values) {
+  Bits any = 0;
+  for (const Real value : values) any |= std::bit_cast<Bits>(value - value);
+  return any == 0;
+}
+
+}  // namespace detail
+
+inline bool all_finite(std::span<const double> values) {
+  return detail::differences_vanish<std::uint64_t>(values);
+}
+inline bool all_finite(std::span<const float> values) {
+  return detail::differences_vanish<std::uint32_t>(values);
+}
+
+// Whether no value is larger than `limit` in magnitude. Values must be finite.
+inline bool all_within(std::span<const double> values, double limit) {
+  constexpr std::size_t kLanes = 8;
+  std::array<double, kLanes> largest{};
+  std::size_t i = 0;
+  for (; i + kLanes <= values.size(); i += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double size = std::fabs(values[i + lane]);
+      largest[lane] = largest[lane] < size ? size : largest[lane];
+    }
+  for (; i < values.size(); ++i) largest[0] = std::max(largest[0], std::fabs(values[i]));
+  return std::all_of(largest.begin(), largest.end(), [&](double size) { return size <= limit; });
+}
+
+inline bool all_below(std::span<const Index> indices, Count limit) {
+  Index largest = 0;
+  for (const Index index : indices) largest = std::max(largest, index);
+  return indices.empty() || largest < limit;
+}
+
+// Whether one of the triangles (3 indices each) names a vertex twice.
+inline bool any_repeats(std::span<const Index> triangles) {
+  // Four triangles at a time: every index against the one behind it and the one after that, where these are
+  // of the same triangle.
+  constexpr std::size_t kBlock = 12;
+  constexpr std::array<Index, kBlock> kNext{~0u, ~0u, 0, ~0u, ~0u, 0, ~0u, ~0u, 0, ~0u, ~0u, 0};
+  constexpr std::array<Index, kBlock> kLast{~0u, 0, 0, ~0u, 0, 0, ~0u, 0, 0, ~0u, 0, 0};
+  std::array<Index, kBlock> any{};
+  const Index* at = triangles.data();
+  std::size_t left = triangles.size();
+  for (; left >= kBlock + 2; left -= kBlock, at += kBlock)
+    for (std::size_t k = 0; k < kBlock; ++k)
+      any[k] |= ((at[k] == at[k + 1] ? ~0u : 0u) & kNext[k]) | ((at[k] == at[k + 2] ? ~0u : 0u) & kLast[k]);
+  bool found = std::any_of(any.begin(), any.end(), [](Index bits) { return bits != 0; });
+  for (; left >= 3; left -= 3, at += 3) found |= at[0] == at[1] || at[1] == at[2] || at[2] == at[0];
+  return found;
+}
+
+}  // namespace subdivd
