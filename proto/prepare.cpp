@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/mesh/repair.h"
+#include "core/mesh/scan.h"
 #include "proto/json/locate.h"
 #include "proto/suggest.h"
 
@@ -62,6 +63,7 @@ Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceH
 
 // What single precision cannot hold would come out infinite.
 Result<void> check_fits(const std::vector<double>& values, const Path& where) {
+  if (all_within(values, FLT_MAX)) return {};
   for (std::size_t k = 0; k < values.size(); ++k)
     if (std::fabs(values[k]) > FLT_MAX) {
       Path place = where;

@@ -1,7 +1,9 @@
 #include "proto/gltf/accessors.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -55,20 +57,43 @@ Source source_of(const tinygltf::Model& model, const Buffers& buffers, int view_
           view.byteStride != 0 ? view.byteStride : packed};
 }
 
-// Reads into out[i * width ..] what stands at element i, then the sparse elements over it.
+// Walks over packed components and converts them: a vector made of it is written once, not zeroed first.
 template <class T, class Out, class Convert>
-void read_elements(const tinygltf::Model& model, const Buffers& buffers, const tinygltf::Accessor& accessor,
-                   std::size_t width, std::vector<Out>& out, const Convert& convert) {
-  const std::size_t packed = width * sizeof(T);
-  const auto copy = [&](const std::byte* from, std::size_t element) {
-    for (std::size_t k = 0; k < width; ++k) out[element * width + k] = convert(load<T>(from + k * sizeof(T)));
-  };
-  if (accessor.bufferView >= 0) {
-    const Source dense = source_of(model, buffers, accessor.bufferView, accessor.byteOffset, packed);
-    for (std::size_t i = 0; i < accessor.count; ++i) copy(dense.first + i * dense.stride, i);
+class Converting {
+ public:
+  using iterator_category = std::random_access_iterator_tag;  // a vector then knows its size at once
+  using value_type = Out;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const Out*;
+  using reference = Out;
+
+  Converting(const std::byte* at, const Convert& convert) : at_(at), convert_(&convert) {}
+  Out operator*() const { return (*convert_)(load<T>(at_)); }
+  Converting& operator++() {
+    at_ += sizeof(T);
+    return *this;
   }
-  if (!accessor.sparse.isSparse) return;
+  Converting operator++(int) {
+    Converting before = *this;
+    ++*this;
+    return before;
+  }
+  friend difference_type operator-(const Converting& a, const Converting& b) {
+    return (a.at_ - b.at_) / difference_type{sizeof(T)};
+  }
+  bool operator==(const Converting& other) const { return at_ == other.at_; }
+
+ private:
+  const std::byte* at_;
+  const Convert* convert_;
+};
+
+// Writes over out[i * width ..] what the sparse part says of elements i.
+template <class T, class Out, class Convert>
+void read_sparse(const tinygltf::Model& model, const Buffers& buffers, const tinygltf::Accessor& accessor,
+                 std::size_t width, std::vector<Out>& out, const Convert& convert) {
   const auto& sparse = accessor.sparse;
+  const std::size_t packed = width * sizeof(T);
   with_component(sparse.indices.componentType, [&](auto component) {
     using IndexType = decltype(component);
     if constexpr (std::is_unsigned_v<IndexType>) {
@@ -76,10 +101,38 @@ void read_elements(const tinygltf::Model& model, const Buffers& buffers, const t
                                       static_cast<std::size_t>(sparse.indices.byteOffset), sizeof(IndexType));
       const Source values = source_of(model, buffers, sparse.values.bufferView,
                                       static_cast<std::size_t>(sparse.values.byteOffset), packed);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i)
-        copy(values.first + i * packed, load<IndexType>(places.first + i * sizeof(IndexType)));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
+        const std::size_t element = load<IndexType>(places.first + i * sizeof(IndexType));
+        for (std::size_t k = 0; k < width; ++k)
+          out[element * width + k] = convert(load<T>(values.first + i * packed + k * sizeof(T)));
+      }
     }
   });
+}
+
+// Every element's `width` components, the sparse elements over the dense ones.
+template <class T, class Out, class Convert>
+std::vector<Out> read_elements(const tinygltf::Model& model, const Buffers& buffers,
+                               const tinygltf::Accessor& accessor, std::size_t width,
+                               const Convert& convert) {
+  const std::size_t packed = width * sizeof(T);
+  std::vector<Out> out;
+  if (accessor.bufferView >= 0) {
+    const Source dense = source_of(model, buffers, accessor.bufferView, accessor.byteOffset, packed);
+    if (dense.stride == packed) {
+      out = std::vector<Out>(Converting<T, Out, Convert>(dense.first, convert),
+                             Converting<T, Out, Convert>(dense.first + accessor.count * packed, convert));
+    } else {
+      out.resize(accessor.count * width);
+      for (std::size_t i = 0; i < accessor.count; ++i)
+        for (std::size_t k = 0; k < width; ++k)
+          out[i * width + k] = convert(load<T>(dense.first + i * dense.stride + k * sizeof(T)));
+    }
+  } else {
+    out.resize(accessor.count * width);
+  }
+  if (accessor.sparse.isSparse) read_sparse<T>(model, buffers, accessor, width, out, convert);
+  return out;
 }
 
 }  // namespace
@@ -88,23 +141,24 @@ std::vector<double> read_reals(const tinygltf::Model& model, const Buffers& buff
   const tinygltf::Accessor& accessor = model.accessors[index];
   const auto width =
       static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-  std::vector<double> out(accessor.count * width);
+  std::vector<double> out;
   with_component(accessor.componentType, [&](auto component) {
     using T = decltype(component);
-    read_elements<T>(model, buffers, accessor, width, out, [&](T value) {
-      return accessor.normalized ? normalize(value) : static_cast<double>(value);
-    });
+    out = accessor.normalized ? read_elements<T, double>(model, buffers, accessor, width,
+                                                         [](T value) { return normalize(value); })
+                              : read_elements<T, double>(model, buffers, accessor, width,
+                                                         [](T value) { return static_cast<double>(value); });
   });
   return out;
 }
 
 std::vector<Index> read_indices(const tinygltf::Model& model, const Buffers& buffers, Index index) {
   const tinygltf::Accessor& accessor = model.accessors[index];
-  std::vector<Index> out(accessor.count);
+  std::vector<Index> out;
   with_component(accessor.componentType, [&](auto component) {
     using T = decltype(component);
     if constexpr (std::is_unsigned_v<T>)
-      read_elements<T>(model, buffers, accessor, 1, out, [](T value) { return Index{value}; });
+      out = read_elements<T, Index>(model, buffers, accessor, 1, [](T value) { return Index{value}; });
   });
   return out;
 }

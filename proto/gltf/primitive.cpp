@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/mesh/scan.h"
 #include "proto/gltf/layout.h"
 
 namespace subdivd::proto::gltf {
@@ -12,9 +13,9 @@ namespace {
 
 Result<std::vector<double>> read_finite(const Asset& asset, Index accessor, const Place& place) {
   std::vector<double> values = read_reals(asset.model, asset.buffers, accessor);
+  if (all_finite(values)) return values;
   const auto bad =
       std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
-  if (bad == values.end()) return values;
   return error_at(place, ErrorCode::not_finite,
                   "scalar number " + std::to_string(bad - values.begin()) + " is not a finite number");
 }
@@ -31,9 +32,9 @@ Result<std::vector<Index>> read_corners(const Asset& asset, const tinygltf::Prim
   corners = read_indices(asset.model, asset.buffers, accessor);
   const Count size = component_size(static_cast<Count>(asset.model.accessors[accessor].componentType));
   const Index restart = static_cast<Index>((Count{1} << (8 * size)) - 1);
+  if (all_below(corners, std::min(vertex_count, restart))) return corners;
   const auto bad = std::find_if(corners.begin(), corners.end(),
                                 [&](Index index) { return index >= vertex_count || index == restart; });
-  if (bad == corners.end()) return corners;
   return error_at(
       place.at("indices"), ErrorCode::out_of_range,
       "index number " + std::to_string(bad - corners.begin()) + " is " + std::to_string(*bad) +

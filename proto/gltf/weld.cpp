@@ -1,33 +1,122 @@
 #include "proto/gltf/weld.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
-#include <numeric>
+#include <optional>
 
 namespace subdivd::proto::gltf {
+namespace {
 
-Welded weld_tuples(std::span<const double> values, Count width) {
-  const Count count = width == 0 ? 0 : values.size() / width;
-  const auto bits = [&](Count tuple, Count k) {
-    return std::bit_cast<std::uint64_t>(values[tuple * width + k] + 0.0);  // -0 + 0 is +0
-  };
+std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 + 0 is +0
+std::uint64_t bits_of(Index value) { return value; }
+
+// The tuples as rows of words. kWidth 0: known at run time only.
+template <class Number, Count kWidth>
+class Rows {
+ public:
+  Rows(std::span<const Number> values, Count width, std::span<const Index> groups)
+      : values_(values.data()), groups_(groups.empty() ? nullptr : groups.data()), run_time_width_(width) {}
+
+  Count width() const { return kWidth != 0 ? kWidth : run_time_width_; }
+  std::uint64_t word(Count row, Count k) const { return bits_of(values_[row * width() + k]); }
+  Index group(Count row) const { return groups_ == nullptr ? 0 : groups_[row]; }
+
+  bool equal(Count a, Count b) const {
+    std::uint64_t difference = group(a) ^ group(b);
+    for (Count k = 0; k < width(); ++k) difference |= word(a, k) ^ word(b, k);
+    return difference == 0;
+  }
+
+  // Every bit of the row moves every bit of the upper half.
+  std::uint64_t hash(Count row) const {
+    std::uint64_t h = (group(row) + kSeed) * kFactor;
+    for (Count k = 0; k < width(); ++k) {
+      h ^= word(row, k);
+      h ^= h >> 32;
+      h *= kFactor;
+    }
+    h ^= h >> 29;
+    return h * kFactor;
+  }
+
+ private:
+  static constexpr std::uint64_t kSeed = 0x9E3779B97F4A7C15, kFactor = 0xD6E8FEB86659FD93;  // any odd ones
+  const Number* values_;
+  const Index* groups_;
+  Count run_time_width_;
+};
+
+// Open addressing; a slot holds id + 1 and, in the bits that ids leave, as many of the hash. Gives up when
+// rows collide more than chance lets them: the mixing is no secret, so an attacker can make all of them.
+template <class R>
+std::optional<Welded> weld_by_hashing(const R& rows, Count count) {
+  constexpr Count kBlock = 32;  // rows whose slots are fetched ahead
+  if (count >= Count{1} << 31) return {};
+  const int slot_bits = std::max(static_cast<int>(std::bit_width(count)) + 1, 4);
+  const int shift = 64 - slot_bits;
+  const Count mask = (Count{1} << slot_bits) - 1;
+  const Index tag_mask = ~((Index{1} << std::bit_width(count)) - 1);
+  std::vector<Index> slots(mask + 1);
+  Welded weld;
+  weld.id.resize(count);
+  weld.first.resize(count);
+  Index ids = 0;
+  Count steps_left = 8 * count + 1024;
+  std::array<std::uint64_t, kBlock> hashes;
+  for (Count begin = 0; begin < count; begin += kBlock) {
+    const Count size = std::min(kBlock, count - begin);
+    for (Count k = 0; k < size; ++k) {
+      hashes[k] = rows.hash(begin + k);
+      __builtin_prefetch(&slots[hashes[k] >> shift]);
+    }
+    for (Count k = 0; k < size; ++k) {
+      const Index tag = static_cast<Index>(hashes[k]) & tag_mask;
+      Count slot = hashes[k] >> shift;
+      for (;; slot = (slot + 1) & mask) {
+        const Index found = slots[slot];
+        if (found == 0) {
+          weld.first[ids] = static_cast<Index>(begin + k);
+          weld.id[begin + k] = ids;
+          slots[slot] = ++ids | tag;
+          break;
+        }
+        if (((found ^ tag) & tag_mask) == 0) {
+          const Index id = (found & ~tag_mask) - 1;
+          if (rows.equal(weld.first[id], begin + k)) {
+            weld.id[begin + k] = id;
+            break;
+          }
+        }
+        if (--steps_left == 0) return {};
+      }
+    }
+  }
+  weld.first.resize(ids);
+  return weld;
+}
+
+template <class R>
+Welded sort_rows(const R& rows, Count count) {
   // The first word rides along: most comparisons never touch the values.
   struct Entry {
     std::uint64_t word;
-    Index tuple;
+    Index row;
   };
   std::vector<Entry> order(count);
-  for (Count i = 0; i < count; ++i) order[i] = {bits(i, 0), static_cast<Index>(i)};
+  for (Count i = 0; i < count; ++i)
+    order[i] = {rows.width() == 0 ? 0 : rows.word(i, 0), static_cast<Index>(i)};
   const auto compare_rest = [&](Index a, Index b) {
-    for (Count k = 1; k < width; ++k)
-      if (const std::uint64_t x = bits(a, k), y = bits(b, k); x != y) return x < y ? -1 : 1;
+    if (rows.group(a) != rows.group(b)) return rows.group(a) < rows.group(b) ? -1 : 1;
+    for (Count k = 1; k < rows.width(); ++k)
+      if (const std::uint64_t x = rows.word(a, k), y = rows.word(b, k); x != y) return x < y ? -1 : 1;
     return 0;
   };
   std::sort(order.begin(), order.end(), [&](const Entry& a, const Entry& b) {
     if (a.word != b.word) return a.word < b.word;
-    const int rest = compare_rest(a.tuple, b.tuple);
-    return rest != 0 ? rest < 0 : a.tuple < b.tuple;
+    const int rest = compare_rest(a.row, b.row);
+    return rest != 0 ? rest < 0 : a.row < b.row;
   });
 
   Welded weld;
@@ -35,8 +124,8 @@ Welded weld_tuples(std::span<const double> values, Count width) {
   std::vector<Index> representative(count);
   for (Count i = 0; i < count; ++i) {
     const bool same =
-        i > 0 && order[i].word == order[i - 1].word && compare_rest(order[i].tuple, order[i - 1].tuple) == 0;
-    representative[order[i].tuple] = same ? representative[order[i - 1].tuple] : order[i].tuple;
+        i > 0 && order[i].word == order[i - 1].word && compare_rest(order[i].row, order[i - 1].row) == 0;
+    representative[order[i].row] = same ? representative[order[i - 1].row] : order[i].row;
   }
   for (Index i = 0; i < count; ++i) {
     if (representative[i] == i) {
@@ -47,6 +136,38 @@ Welded weld_tuples(std::span<const double> values, Count width) {
     }
   }
   return weld;
+}
+
+template <Count kWidth, class Number>
+Welded weld_rows(std::span<const Number> values, Count width, std::span<const Index> groups) {
+  const Rows<Number, kWidth> rows(values, width, groups);
+  const Count count = width == 0 ? groups.size() : values.size() / width;
+  if (auto weld = weld_by_hashing(rows, count)) return *std::move(weld);
+  return sort_rows(rows, count);
+}
+
+}  // namespace
+
+Welded weld_tuples(std::span<const double> values, Count width, std::span<const Index> groups) {
+  switch (width) {
+    case 2:
+      return weld_rows<2>(values, width, groups);
+    case 3:
+      return weld_rows<3>(values, width, groups);
+    default:
+      return weld_rows<0>(values, width, groups);
+  }
+}
+
+Welded weld_tuples(std::span<const Index> values, Count width) { return weld_rows<0>(values, width, {}); }
+
+std::uint64_t hash_of_tuple(std::span<const double> tuple) {
+  return Rows<double, 0>(tuple, tuple.size(), {}).hash(0);
+}
+
+Welded weld_by_sorting(std::span<const double> values, Count width, std::span<const Index> groups) {
+  const Rows<double, 0> rows(values, width, groups);
+  return sort_rows(rows, width == 0 ? groups.size() : values.size() / width);
 }
 
 }  // namespace subdivd::proto::gltf

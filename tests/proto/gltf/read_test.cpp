@@ -2,7 +2,6 @@
 
 #include "proto/gltf/read_lines.h"
 #include "proto/gltf/read_triangles.h"
-#include "proto/gltf/weld.h"
 #include "tests/proto/gltf/pipeline.h"
 #include "tests/support/gltf_builder.h"
 
@@ -157,11 +156,6 @@ TEST(ReadTriangles, leaves_out_unused_vertices_and_says_so) {
   const RefineRequest request = must_read(builder.glb());
   EXPECT_EQ(request.meshes.at(0).point_count(), 3u);
   EXPECT_THAT(request.warnings, ElementsAre(HasSubstr("left out: 1 (/meshes/0/primitives/0)")));
-}
-
-TEST(ReadTriangles, takes_minus_zero_for_zero) {
-  const std::vector<double> values = {0.0, 1, -0.0, 1, 0.0, 2};
-  EXPECT_THAT(proto::gltf::weld_tuples(values, 2).id, ElementsAre(0, 0, 1));
 }
 
 TEST(ReadTriangles, asks_for_normals_when_the_asset_had_them) {
