@@ -1,5 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/refine/refine.h"
 #include "core/refine/split.h"
@@ -21,13 +23,26 @@ Json milliseconds(const RefineRequest& request, const Timings& timings, bool ref
   return json;
 }
 
-// Holes count here: they are refined, too.
-Json mesh_levels(const ControlMesh& mesh, Index level) {
-  Json levels = Json::array();
+// Edges of the control mesh. The number of refined points tells it without finding every edge again, which
+// would take longer than writing the answer; 0 points: there is no refined mesh.
+std::optional<Count> edge_count(const ControlMesh& mesh, Index level, Count refined_points) {
+  if (level > 0 && refined_points > 0) {
+    const Count on_edge = (Count{1} << level) - 1;  // points inside each
+    const Count without = refined_counts(mesh.point_count(), 0, mesh.face_count(), level).vertices;
+    return (refined_points - without) / on_edge;
+  }
   const auto size = predict_size<float>(mesh, {.level = 0});
-  if (!size) return levels;
+  if (!size) return {};
+  return size->counts.edges;
+}
+
+// Holes count here: they are refined, too.
+Json mesh_levels(const ControlMesh& mesh, Index level, Count refined_points) {
+  Json levels = Json::array();
+  const std::optional<Count> edges = edge_count(mesh, level, refined_points);
+  if (!edges) return levels;
   for (Index l = 0; l <= level; ++l) {
-    const LevelCounts counts = refined_counts(mesh.point_count(), size->counts.edges, mesh.face_count(), l);
+    const LevelCounts counts = refined_counts(mesh.point_count(), *edges, mesh.face_count(), l);
     levels.push_back({{"level", l},
                       {"vertices", counts.vertices},
                       {"edges", counts.edges},
@@ -47,11 +62,11 @@ Json curve_levels(const ControlCurves& curves, Index level) {
   return levels;
 }
 
-Json mesh_statistics(const ControlMesh& mesh, Index level) {
+Json mesh_statistics(const ControlMesh& mesh, Index level, Count refined_points) {
   Json json;
   if (!mesh.name.empty()) json["name"] = mesh.name;
   json["input"] = {{"points", mesh.point_count()}, {"faces", mesh.face_count()}};
-  json["levels"] = mesh_levels(mesh, level);
+  json["levels"] = mesh_levels(mesh, level, refined_points);
   return json;
 }
 
@@ -64,10 +79,13 @@ Json curve_statistics(const ControlCurves& curves, Index level) {
   return json;
 }
 
-Json statistics(const RefineRequest& request) {
+// `refined_points`: of every mesh; empty when nothing was refined.
+Json statistics(const RefineRequest& request, const std::vector<Count>& refined_points) {
   Json json;
   const Index level = request.options.level;
-  for (const ControlMesh& mesh : request.meshes) json["meshes"].push_back(mesh_statistics(mesh, level));
+  for (std::size_t i = 0; i < request.meshes.size(); ++i)
+    json["meshes"].push_back(
+        mesh_statistics(request.meshes[i], level, i < refined_points.size() ? refined_points[i] : 0));
   for (const ControlCurves& curves : request.curves)
     json["curves"].push_back(curve_statistics(curves, level));
   return json;
@@ -106,9 +124,11 @@ std::string assemble(const RefineRequest& request, Json numbers, const Timings& 
 }  // namespace
 
 std::string envelope(const RefineRequest& request, const AnyAnswer& answer) {
-  Json numbers = statistics(request);
   return std::visit(
       [&](const auto& typed) {
+        std::vector<Count> points;
+        for (const auto& mesh : typed.meshes) points.push_back(mesh.points.size() / 3);
+        Json numbers = statistics(request, points);
         add_outputs(numbers, typed);
         const auto* verification = typed.verification ? &*typed.verification : nullptr;
         return assemble(request, std::move(numbers), typed.timings, true, verification);
@@ -118,7 +138,7 @@ std::string envelope(const RefineRequest& request, const AnyAnswer& answer) {
 
 std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
                             const Timings& timings) {
-  return assemble(request, statistics(request), timings, false, &verification);
+  return assemble(request, statistics(request, {}), timings, false, &verification);
 }
 
 }  // namespace subdivd::proto::json

@@ -1,5 +1,6 @@
 #pragma once
-// The JSON encoding of requests and answers (DESIGN §6). read: simdjson; write: std::to_chars.
+// The JSON encoding of requests and answers (DESIGN §6). read: simdjson; write: the shortest texts
+// (number_text.h).
 
 #include <string>
 #include <string_view>

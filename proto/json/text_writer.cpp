@@ -1,17 +1,17 @@
 #include "proto/json/text_writer.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "proto/json/number_text.h"
+
 namespace subdivd::proto::json {
 namespace {
 
 constexpr std::size_t kChunkSize = std::size_t{1} << 20;
-constexpr std::size_t kLongestNumber = 32;  // of a double 24: -2.2250738585072014e-308
 
 }  // namespace
 
@@ -22,10 +22,11 @@ std::string quoted_json(std::string_view text) {
 void TextWriter::flush(std::size_t bytes) {
   if (used_ > 0) {
     last_ = buffer_[used_ - 1];
-    buffer_.resize(used_);
-    chunks_.push_back(Chunk::own(std::move(buffer_)));
+    const auto text = std::as_bytes(std::span(buffer_.get(), used_));
+    chunks_.push_back({std::move(buffer_), text});
   }
-  buffer_ = std::string(std::max(bytes, next_size_), '\0');
+  size_ = std::max(bytes, next_size_);
+  buffer_ = std::make_shared_for_overwrite<char[]>(size_);
   used_ = 0;
   next_size_ = std::min(2 * next_size_, kChunkSize);
 }
@@ -58,7 +59,7 @@ std::size_t TextWriter::array(std::span<const Number> values, std::size_t width,
     char* at = begin;
     if (i > 0) *at++ = ',';
     if (nested && in_tuple == 0) *at++ = '[';
-    at = std::to_chars(at, at + kLongestNumber, values[i]).ptr;
+    at = write_number(at, values[i]);
     if (++in_tuple == width) {
       in_tuple = 0;
       if (nested) *at++ = ']';

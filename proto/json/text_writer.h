@@ -1,8 +1,9 @@
 #pragma once
 // JSON text into chunks of about a megabyte: a big answer is never one string, so it never needs twice its
-// size. Numbers are written with std::to_chars, the shortest text that reads back to the same bits.
+// size.
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,14 +43,14 @@ class TextWriter {
   std::size_t array(std::span<const Number> values, std::size_t width, ArrayForm form);
   // Makes room for `bytes` more and returns where they go.
   char* room(std::size_t bytes) {
-    if (buffer_.size() - used_ < bytes) flush(bytes);
-    return buffer_.data() + used_;
+    if (size_ - used_ < bytes) flush(bytes);
+    return buffer_.get() + used_;
   }
   void flush(std::size_t bytes);
 
   std::vector<Chunk> chunks_;
-  std::string buffer_;
-  std::size_t used_ = 0, next_size_ = 1 << 14;
+  std::shared_ptr<char[]> buffer_;  // of size_ bytes, unset beyond used_
+  std::size_t size_ = 0, used_ = 0, next_size_ = 1 << 14;
   char last_ = 0;  // of what has been flushed
 };
 
