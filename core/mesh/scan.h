@@ -69,4 +69,13 @@ inline bool any_repeats(std::span<const Index> triangles) {
   return found;
 }
 
+// Whether every index is below `count` and no triangle names a vertex twice: in one walk through memory.
+inline bool all_sound(std::span<const Index> triangles, Count count) {
+  constexpr std::size_t kBlock = 3 * 1024;
+  for (; triangles.size() > kBlock; triangles = triangles.subspan(kBlock))
+    if (const auto block = triangles.first(kBlock); !all_below(block, count) || any_repeats(block))
+      return false;
+  return all_below(triangles, count) && !any_repeats(triangles);
+}
+
 }  // namespace subdivd
