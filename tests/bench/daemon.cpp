@@ -40,8 +40,6 @@ Daemon::Daemon() {
   pid_ = ::fork();
   if (pid_ == 0) {
     ::dup2(ends[1], STDOUT_FILENO);
-    // As it is started by anybody: this program's settings of the allocator are not the daemon's.
-    ::unsetenv("GLIBC_TUNABLES");
     ::execl(SUBDIVD_BINARY_DIR "/subdivd", "subdivd", "--port", "0", "--log-level", "error", nullptr);
     ::_exit(127);
   }

@@ -1,9 +1,7 @@
 // `./dev bench`: everything that README.md names, each as one benchmark of Google's library, and the table.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <deque>
 #include <fstream>
 #include <functional>
@@ -41,15 +39,10 @@ Flags take_flags(int& argc, char** argv) {
   return flags;
 }
 
-// Memory once had is kept, and the heap lies on huge pages where the kernel gives them: for all contestants
-// alike, the cost of new pages is out of the figures. The latter can only be asked for before the program
-// starts.
-void keep_allocator_warm(char** argv) {
-  constexpr const char* kTunables = "glibc.malloc.hugetlb=1";
-  if (std::getenv("GLIBC_TUNABLES") == nullptr) {
-    ::setenv("GLIBC_TUNABLES", kTunables, 1);
-    ::execv("/proc/self/exe", argv);  // when it fails, the heap lies on small pages
-  }
+// Memory once had is kept: for all contestants alike, the cost of new pages is out of the figures. The heap
+// is not asked to lie on huge pages (glibc.malloc.hugetlb): Far's totals came out slower with them, not
+// faster.
+void keep_allocator_warm() {
   ::mallopt(M_MMAP_MAX, 0);
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_TOP_PAD, 256 << 20);
@@ -128,6 +121,6 @@ int run(int argc, char** argv) {
 }  // namespace subdivd::bench
 
 int main(int argc, char** argv) {
-  subdivd::bench::keep_allocator_warm(argv);
+  subdivd::bench::keep_allocator_warm();
   return subdivd::bench::run(argc, argv);
 }
