@@ -101,6 +101,7 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
   if (Result<void> fine = check_options(request->options, limits, query); !fine) return fine.error();
   override_meshes(*request);
   if (Result<void> fine = prepare(*request); !fine) return fine.error();
+  if (answer_format(*request) != Format::json) gltf::add_render_meshes(*request);
   return request;
 }
 

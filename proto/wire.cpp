@@ -1,5 +1,7 @@
 #include "proto/wire.h"
 
+#include <algorithm>
+
 namespace subdivd::proto {
 
 Format answer_format(const RefineRequest& request) { return request.options.format.value_or(request.input); }
@@ -9,13 +11,26 @@ Precision answer_precision(const RefineRequest& request) {
   return request.options.precision.value_or(json ? Precision::double_precision : Precision::single_precision);
 }
 
+namespace {
+
+// A glTF answer indexes render meshes alone.
+bool needs_connectivity(const RefineRequest& request) {
+  return answer_format(request) == Format::json ||
+         std::ranges::any_of(request.meshes,
+                             [](const ControlMesh& mesh) { return mesh.render_meshes.empty(); });
+}
+
+}  // namespace
+
 RefineOptions mesh_options(const RefineRequest& request) {
   const Options& options = request.options;
   return {.level = options.level,
           .loop_weights = options.loop_weights,
           .crease_method = options.crease_method,
           .limit = options.limit,
-          .normals = options.normals};
+          .normals = options.normals,
+          .connectivity = needs_connectivity(request),
+          .provenance = false};
 }
 
 CurveOptions curve_options(const RefineRequest& request) {

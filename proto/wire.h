@@ -111,9 +111,9 @@ struct Chunk {
   std::span<const std::byte> bytes;
 
   static Chunk own(std::string text);
-  template <class T>
-  static Chunk own(std::vector<T> values) {
-    auto kept = std::make_shared<const std::vector<T>>(std::move(values));
+  template <class T, class Allocator>
+  static Chunk own(std::vector<T, Allocator> values) {
+    auto kept = std::make_shared<const std::vector<T, Allocator>>(std::move(values));
     return {kept, std::as_bytes(std::span(*kept))};
   }
 };

@@ -22,11 +22,6 @@ Real dot(const Real a[3], const Real b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-template <class Real>
-bool is_zero(const Real a[3]) {
-  return a[0] == 0 && a[1] == 0 && a[2] == 0;
-}
-
 // Normal of the plane of two unit vectors; false when they are parallel as far as the type can tell.
 template <class Real>
 bool plane_normal(const Real u[3], const Real v[3], Real normal[3]) {
@@ -64,35 +59,26 @@ void mean_normal(std::span<const Frame<Real>> frames, Real out[3]) {
   normalize(out);
 }
 
-template <class Scheme, class Real>
-LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, const Sharp& own,
-                                   const Sharp& mesh, Index v, std::span<const Real> values, Index width)
-    : scheme_(scheme), method_(method), width_(width) {
-  gather(own, v, values);
-  gather_sectors(own.topology, v);
-  if (wedges_.empty() || settled()) return;  // a point without faces stays, sharp or not
-  gather_decay(own, mesh, v);
-  while (!settled()) step();
-}
-
-template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::gather(const Sharp& own, Index v, std::span<const Real> values) {
-  auto append = [&](std::vector<Real>& to, Index vertex) {
-    const auto at = values.subspan(std::size_t{vertex} * width_, width_);
-    to.insert(to.end(), at.begin(), at.end());
+template <class Real>
+bool set_normal(Frame<Real>& frame) {
+  // A tangent that is nothing beside the other is what rounding left of a sum that cancels.
+  const auto size = [](const Real x[3]) {
+    return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
   };
-  append(center_, v);
-  vertex_sharpness_ = own.sharpness.vertices[v];
-  for (Index e : own.topology.vertex_edges(v)) {
-    append(neighbors_, own.topology.other_end(e, v));
-    edge_sharpness_.push_back(own.sharpness.edges[e]);
-  }
+  const Real u = size(frame.u), v = size(frame.v);
+  if (std::min(u, v) <= 16 * std::numeric_limits<Real>::epsilon() * std::max(u, v)) return false;
+  Real unit_u[3], unit_v[3];
+  std::copy_n(frame.u, 3, unit_u);
+  std::copy_n(frame.v, 3, unit_v);
+  normalize(unit_u);
+  normalize(unit_v);
+  return plane_normal(unit_u, unit_v, frame.normal);
 }
 
 // What decides how the ring's sharpness decays: the edges around the same point of the mesh, and, at the far
 // ends of the ring's edges, those around theirs.
-template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::gather_decay(const Sharp& own, const Sharp& mesh, Index v) {
+template <class Real>
+void gather_decay(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v, Ring<Real>& ring) {
   const Index h0 = own.topology.vertex_corners(v)[0];
   const auto around = mesh.topology.vertex_edges(mesh.topology.corner_vertex(h0));
   auto sharpness_of = [&](std::span<const Index> edges) {
@@ -103,116 +89,145 @@ void LimitRing<Scheme, Real>::gather_decay(const Sharp& own, const Sharp& mesh, 
   auto position = [](std::span<const Index> edges, Index e) {
     return static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin());
   };
-  around_ = sharpness_of(around);
+  ring.around = sharpness_of(around);
   for (Index e : own.topology.vertex_edges(v)) {
     const Index in_mesh = mesh.topology.half_edge_edge(own.topology.edge_half_edges(e)[0]);
-    in_mesh_.push_back(position(around, in_mesh));
+    ring.in_mesh.push_back(position(around, in_mesh));
     if (is_infinite(own.sharpness.edges[e])) {
-      far_child_.push_back(kInfiniteSharpness);
+      ring.far_child.push_back(kInfiniteSharpness);
       continue;
     }
     const auto at_end =
         mesh.topology.vertex_edges(mesh.topology.other_end(in_mesh, mesh.topology.corner_vertex(h0)));
     const std::vector<float> parent = sharpness_of(at_end);
     std::vector<float> child(parent.size());
-    decay_around_vertex(method_, parent, child);
-    far_child_.push_back(child[position(at_end, in_mesh)]);
+    decay_around_vertex(method, parent, child);
+    ring.far_child.push_back(child[position(at_end, in_mesh)]);
   }
 }
 
-template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::gather_sectors(const Topology& topology, Index v) {
+template <class Real>
+void Ring<Real>::set_faces(const Topology& topology, Index v) {
   const auto edges = topology.vertex_edges(v);
   auto position = [&](Index h) {  // of the edge of half-edge h in the ring
     const Index e = topology.half_edge_edge(h);
     return static_cast<Index>(std::ranges::lower_bound(edges, e) - edges.begin());
   };
-  for (Index h : topology.vertex_corners(v)) wedges_.push_back({position(h), position(Topology::prev(h))});
+  for (Index h : topology.vertex_corners(v)) wedges.push_back({position(h), position(Topology::prev(h))});
   auto passable = [&](Index e) {
     return !is_infinite(
-        edge_sharpness_[static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin())]);
+        edge_sharpness[static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin())]);
   };
   for (const Topology::Fan& fan : topology.fans(v, passable)) {
     Sector sector{{}, fan.closed};
     for (Index h : fan.corners) sector.edges.push_back(position(h));
     if (!fan.closed) sector.edges.push_back(position(Topology::prev(fan.corners.back())));
-    sectors_.push_back(std::move(sector));
+    sectors.push_back(std::move(sector));
   }
+}
+
+template <class Real>
+Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
+                   std::span<const Real> values, Index width) {
+  Ring<Real> ring;
+  ring.width = width;
+  auto append = [&](std::vector<Real>& to, Index vertex) {
+    const auto at = values.subspan(std::size_t{vertex} * width, width);
+    to.insert(to.end(), at.begin(), at.end());
+  };
+  append(ring.center, v);
+  ring.vertex_sharpness = own.sharpness.vertices[v];
+  for (Index e : own.topology.vertex_edges(v)) {
+    append(ring.neighbors, own.topology.other_end(e, v));
+    ring.edge_sharpness.push_back(own.sharpness.edges[e]);
+  }
+  ring.set_faces(own.topology, v);
+  if (!ring.wedges.empty()) gather_decay(method, own, mesh, v, ring);
+  return ring;
+}
+
+template <class Scheme, class Real>
+LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring)
+    : scheme_(scheme), method_(method), ring_(std::move(ring)) {
+  if (ring_.wedges.empty()) return;  // a point without faces stays, sharp or not
+  while (!settled()) step();
 }
 
 template <class Scheme, class Real>
 bool LimitRing<Scheme, Real>::settled() const {
-  return !is_semi_sharp(vertex_sharpness_) && std::ranges::none_of(edge_sharpness_, is_semi_sharp);
+  return !is_semi_sharp(ring_.vertex_sharpness) && std::ranges::none_of(ring_.edge_sharpness, is_semi_sharp);
 }
 
 // One level of refinement of the ring: its own values from its own values.
 template <class Scheme, class Real>
 void LimitRing<Scheme, Real>::step() {
-  const std::size_t n = edge_sharpness_.size();
-  std::vector<float> around(around_.size()), near_child(n);
-  decay_around_vertex(method_, around_, around);
+  const std::size_t n = ring_.edge_sharpness.size();
+  std::vector<float> around(ring_.around.size()), near_child(n);
+  decay_around_vertex(method_, ring_.around, around);
   for (std::size_t k = 0; k < n; ++k)
-    near_child[k] = is_infinite(edge_sharpness_[k]) ? kInfiniteSharpness : around[in_mesh_[k]];
+    near_child[k] = is_infinite(ring_.edge_sharpness[k]) ? kInfiniteSharpness : around[ring_.in_mesh[k]];
   std::vector<Index> face_counts(n, 0);
-  std::vector<Real> opposite(neighbors_.size(), Real(0));
-  for (const Wedge& wedge : wedges_)
+  std::vector<Real> opposite(ring_.neighbors.size(), Real(0));
+  for (const auto& wedge : ring_.wedges)
     for (auto [edge, across] : {std::pair{wedge.from, wedge.to}, std::pair{wedge.to, wedge.from}}) {
       ++face_counts[edge];
-      for (Index c = 0; c < width_; ++c)
-        opposite[std::size_t{edge} * width_ + c] += neighbors_[std::size_t{across} * width_ + c];
+      for (Index c = 0; c < ring_.width; ++c)
+        opposite[std::size_t{edge} * ring_.width + c] +=
+            ring_.neighbors[std::size_t{across} * ring_.width + c];
     }
-  const float child_sharpness = decay(vertex_sharpness_);
+  const float child_sharpness = decay(ring_.vertex_sharpness);
   const VertexMask vertex =
-      scheme_.vertex_mask({static_cast<Index>(wedges_.size()), method_, vertex_sharpness_, child_sharpness,
-                           edge_sharpness_, near_child});
-  std::vector<Real> center(width_);
-  for (Index c = 0; c < width_; ++c) {
-    Real sum = static_cast<Real>(vertex.self) * center_[c];
-    for (std::size_t k = 0; k < n; ++k) sum += static_cast<Real>(vertex.each) * neighbors_[k * width_ + c];
+      scheme_.vertex_mask({static_cast<Index>(ring_.wedges.size()), method_, ring_.vertex_sharpness,
+                           child_sharpness, ring_.edge_sharpness, near_child});
+  std::vector<Real> center(ring_.width);
+  for (Index c = 0; c < ring_.width; ++c) {
+    Real sum = static_cast<Real>(vertex.self) * ring_.center[c];
+    for (std::size_t k = 0; k < n; ++k)
+      sum += static_cast<Real>(vertex.each) * ring_.neighbors[k * ring_.width + c];
     for (Index end : vertex.crease_ends)
-      sum += static_cast<Real>(vertex.crease) * neighbors_[std::size_t{end} * width_ + c];
+      sum += static_cast<Real>(vertex.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
     center[c] = sum;
   }
   for (std::size_t k = 0; k < n; ++k) {
     const EdgeMask edge =
-        scheme_.edge_mask({face_counts[k], edge_sharpness_[k], {near_child[k], far_child_[k]}});
+        scheme_.edge_mask({face_counts[k], ring_.edge_sharpness[k], {near_child[k], ring_.far_child[k]}});
     // The far half's other half comes to stand beside the new ring: its sharpness decides, under Chaikin's
     // rule, how the new edge decays at its far end.
-    const std::array<float, 2> halves{near_child[k], far_child_[k]};
+    const std::array<float, 2> halves{near_child[k], ring_.far_child[k]};
     std::array<float, 2> next{};
     decay_around_vertex(method_, halves, next);
-    far_child_[k] = next[0];
-    for (Index c = 0; c < width_; ++c) {
-      Real& value = neighbors_[k * width_ + c];
-      value = static_cast<Real>(edge.end) * (center_[c] + value) +
-              static_cast<Real>(edge.opposite) * opposite[k * width_ + c];
+    ring_.far_child[k] = next[0];
+    for (Index c = 0; c < ring_.width; ++c) {
+      Real& value = ring_.neighbors[k * ring_.width + c];
+      value = static_cast<Real>(edge.end) * (ring_.center[c] + value) +
+              static_cast<Real>(edge.opposite) * opposite[k * ring_.width + c];
     }
   }
-  center_ = std::move(center);
-  around_ = std::move(around);
-  edge_sharpness_ = std::move(near_child);
-  vertex_sharpness_ = child_sharpness;
+  ring_.center = std::move(center);
+  ring_.around = std::move(around);
+  ring_.edge_sharpness = std::move(near_child);
+  ring_.vertex_sharpness = child_sharpness;
 }
 
 template <class Scheme, class Real>
 Rule LimitRing<Scheme, Real>::rule() const {
-  return wedges_.empty() ? Rule::corner : rule_of(vertex_sharpness_, edge_sharpness_);
+  return ring_.wedges.empty() ? Rule::corner : rule_of(ring_.vertex_sharpness, ring_.edge_sharpness);
 }
 
 // The ring's edges in cyclic order from the crease on.
 template <class Scheme, class Real>
 std::vector<Index> LimitRing<Scheme, Real>::dart_order() const {
-  std::vector<Index> order = sectors_[0].edges;
+  std::vector<Index> order = ring_.sectors[0].edges;
   order.pop_back();  // the crease again
   return order;
 }
 
 template <class Scheme, class Real>
 void LimitRing<Scheme, Real>::apply(const RingMask& mask, std::span<const Index> order, Real* out) const {
-  for (Index c = 0; c < width_; ++c) {
-    Real sum = static_cast<Real>(mask.self) * center_[c];
+  for (Index c = 0; c < ring_.width; ++c) {
+    Real sum = static_cast<Real>(mask.self) * ring_.center[c];
     for (std::size_t k = 0; k < mask.edges.size(); ++k)
-      sum += static_cast<Real>(mask.edges[k]) * neighbors_[std::size_t{order[k]} * width_ + c];
+      sum += static_cast<Real>(mask.edges[k]) * ring_.neighbors[std::size_t{order[k]} * ring_.width + c];
     out[c] = sum;
   }
 }
@@ -224,14 +239,15 @@ void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<co
   for (std::size_t c = 0; c < 3; ++c) {
     Real sum = 0;
     for (std::size_t k = 0; k < mask.edges.size(); ++k)
-      sum += static_cast<Real>(mask.edges[k]) * (neighbors_[std::size_t{order[k]} * 3 + c] - center_[c]);
+      sum += static_cast<Real>(mask.edges[k]) *
+             (ring_.neighbors[std::size_t{order[k]} * 3 + c] - ring_.center[c]);
     out[c] = sum;
   }
 }
 
 template <class Scheme, class Real>
 std::vector<Real> LimitRing<Scheme, Real>::position() const {
-  std::vector<Real> out(center_);
+  std::vector<Real> out(ring_.center);
   VertexMask mask;
   switch (rule()) {
     case Rule::corner:
@@ -242,24 +258,24 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
       return out;
     }
     case Rule::smooth:
-      mask = scheme_.smooth_limit_mask(static_cast<Index>(wedges_.size()));
+      mask = scheme_.smooth_limit_mask(static_cast<Index>(ring_.wedges.size()));
       break;
     case Rule::crease: {
-      const auto first = std::ranges::find_if(edge_sharpness_, is_sharp);
-      const auto second = std::find_if(first + 1, edge_sharpness_.end(), is_sharp);
-      mask = scheme_.crease_limit_mask(static_cast<Index>(first - edge_sharpness_.begin()),
-                                       static_cast<Index>(second - edge_sharpness_.begin()));
+      const auto first = std::ranges::find_if(ring_.edge_sharpness, is_sharp);
+      const auto second = std::find_if(first + 1, ring_.edge_sharpness.end(), is_sharp);
+      mask = scheme_.crease_limit_mask(static_cast<Index>(first - ring_.edge_sharpness.begin()),
+                                       static_cast<Index>(second - ring_.edge_sharpness.begin()));
     }
   }
-  for (Index c = 0; c < width_; ++c) {
-    Real sum = static_cast<Real>(mask.self) * center_[c];
+  for (Index c = 0; c < ring_.width; ++c) {
+    Real sum = 0;  // the small weights first
     if (mask.each != 0)
-      for (std::size_t k = 0; k < edge_sharpness_.size(); ++k)
-        sum += static_cast<Real>(mask.each) * neighbors_[k * width_ + c];
+      for (std::size_t k = 0; k < ring_.edge_sharpness.size(); ++k)
+        sum += static_cast<Real>(mask.each) * ring_.neighbors[k * ring_.width + c];
     if (mask.crease != 0)
       for (Index end : mask.crease_ends)
-        sum += static_cast<Real>(mask.crease) * neighbors_[std::size_t{end} * width_ + c];
-    out[c] = sum;
+        sum += static_cast<Real>(mask.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
+    out[c] = sum + static_cast<Real>(mask.self) * ring_.center[c];
   }
   return out;
 }
@@ -268,7 +284,8 @@ template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
   Frame<Real> frame;
   auto spoke = [&](Index edge, Real scale, Real out[3]) {
-    for (int c = 0; c < 3; ++c) out[c] = (neighbors_[std::size_t{edge} * 3 + c] - center_[c]) * scale;
+    for (int c = 0; c < 3; ++c)
+      out[c] = (ring_.neighbors[std::size_t{edge} * 3 + c] - ring_.center[c]) * scale;
   };
   Real largest = 0;
   for (Index edge : sector.edges) {
@@ -277,15 +294,21 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
     for (Real x : along) largest = std::max(largest, std::abs(x));
   }
   if (largest == 0) return frame;
+  Real total = 0;
   const std::size_t n = sector.edges.size();
   for (std::size_t k = 0; k + 1 < n + (sector.closed ? 1 : 0); ++k) {
     Real a[3], b[3], area[3];
     spoke(sector.edges[k], 1 / largest, a);
     spoke(sector.edges[(k + 1) % n], 1 / largest, b);
     cross(a, b, area);
-    for (int c = 0; c < 3; ++c) frame.normal[c] += area[c];
+    for (int c = 0; c < 3; ++c) {
+      frame.normal[c] += area[c];
+      total += std::abs(area[c]);
+    }
   }
-  if (is_zero(frame.normal)) return frame;
+  // Sides that cancel up to rounding (a pillow without filling) have no normal.
+  const Real noise = 16 * std::numeric_limits<Real>::epsilon() * total;
+  if (std::ranges::all_of(frame.normal, [&](Real x) { return std::abs(x) <= noise; })) return {};
   normalize(frame.normal);
   // Any pair that spans the plane: start from the axis that is least along the normal.
   Real axis[3] = {0, 0, 0};
@@ -324,12 +347,7 @@ Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
   } else {
     return mean;
   }
-  Real unit_u[3], unit_v[3];
-  std::copy_n(frame.u, 3, unit_u);
-  std::copy_n(frame.v, 3, unit_v);
-  normalize(unit_u);
-  normalize(unit_v);
-  if (!plane_normal(unit_u, unit_v, frame.normal)) return mean;
+  if (!set_normal(frame)) return mean;
   // The border edges of a corner may open by more than 180 degrees: the faces between them tell which side is
   // out.
   if (rule == Rule::corner && dot(frame.normal, mean.normal) < 0) {
@@ -342,10 +360,17 @@ Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
 template <class Scheme, class Real>
 std::vector<Frame<Real>> LimitRing<Scheme, Real>::frames() const {
   std::vector<Frame<Real>> result;
-  for (const Sector& sector : sectors_) result.push_back(frame_of(sector));
+  for (const Sector& sector : ring_.sectors) result.push_back(frame_of(sector));
   return result;
 }
 
+template struct Ring<float>;
+template struct Ring<double>;
+template Ring<float> ring_of(CreaseMethod, const Sharp&, const Sharp&, Index, std::span<const float>, Index);
+template Ring<double> ring_of(CreaseMethod, const Sharp&, const Sharp&, Index, std::span<const double>,
+                              Index);
+template bool set_normal(Frame<float>&);
+template bool set_normal(Frame<double>&);
 template class LimitRing<Loop, float>;
 template class LimitRing<Loop, double>;
 template void normalize<float>(float[3]);

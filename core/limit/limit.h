@@ -27,14 +27,44 @@ struct Frame {
   Real normal[3] = {0, 0, 0};               // unit, along u x v; zero where the geometry has no normal
 };
 
-// The ring of vertex `v` with its values, ready for limits. Scheme: see core/schemes/scheme.h.
+// A vertex with its neighbours: values, sharpness, and how its faces hang together.
+template <class Real>
+struct Ring {
+  struct Wedge {  // a face: from ring edge `from` counter-clockwise to ring edge `to`
+    Index from = 0, to = 0;
+  };
+  struct Sector {              // the faces between two infinitely sharp edges, or all
+    std::vector<Index> edges;  // of the ring, counter-clockwise; open: one more than there are faces
+    bool closed = false;
+  };
+
+  Index width = 3;
+  std::vector<Real> center, neighbors;  // width scalars; width per ring edge
+  float vertex_sharpness = 0;
+  std::vector<float> edge_sharpness;  // of the ring's edges
+  // What decides how semi-sharp edges decay; may be empty where nothing is semi-sharp.
+  std::vector<float> around;         // sharpness of the mesh's edges at the vertex, which decay together
+  std::vector<std::size_t> in_mesh;  // position of every ring edge in `around`
+  std::vector<float> far_child;      // one level on, of the halves that are not next to the vertex
+  std::vector<Wedge> wedges;
+  std::vector<Sector> sectors;
+
+  // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
+  void set_faces(const Topology& topology, Index v);
+};
+
+// The ring of vertex v. `values`: width scalars per vertex of the topology. For a channel, `mesh` is the mesh
+// over the same faces at the same level, whose edges decide how sharpness decays; for the mesh itself the two
+// are the same.
+template <class Real>
+Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
+                   std::span<const Real> values, Index width);
+
+// A ring ready for limits. Scheme: see core/schemes/scheme.h.
 template <class Scheme, class Real>
 class LimitRing {
  public:
-  // `values`: width scalars per vertex of the topology. For a channel, `mesh` is the mesh over the same faces
-  // at the same level, whose edges decide how sharpness decays; for the mesh itself the two are the same.
-  LimitRing(const Scheme& scheme, CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
-            std::span<const Real> values, Index width);
+  LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring);
 
   // Limit of the vertex: width scalars.
   std::vector<Real> position() const;
@@ -48,17 +78,8 @@ class LimitRing {
   std::vector<Frame<Real>> frames() const;
 
  private:
-  struct Wedge {  // a face: from ring edge `from` counter-clockwise to ring edge `to`
-    Index from = 0, to = 0;
-  };
-  struct Sector {
-    std::vector<Index> edges;  // counter-clockwise; open: one more than there are faces
-    bool closed = false;
-  };
+  using Sector = typename Ring<Real>::Sector;
 
-  void gather(const Sharp& own, Index v, std::span<const Real> values);
-  void gather_decay(const Sharp& own, const Sharp& mesh, Index v);
-  void gather_sectors(const Topology& topology, Index v);
   bool settled() const;
   void step();
   Rule rule() const;
@@ -70,16 +91,12 @@ class LimitRing {
 
   Scheme scheme_;
   CreaseMethod method_;
-  Index width_;
-  std::vector<Real> center_, neighbors_;
-  float vertex_sharpness_ = 0;
-  std::vector<float> edge_sharpness_;  // of the ring's edges
-  std::vector<float> around_;          // of the mesh's edges at the vertex, which decay together
-  std::vector<std::size_t> in_mesh_;   // position of every ring edge in around_
-  std::vector<float> far_child_;       // one level on, of the halves that are not next to the vertex
-  std::vector<Wedge> wedges_;
-  std::vector<Sector> sectors_;
+  Ring<Real> ring_;
 };
+
+// Sets the normal from the tangents; false when they are parallel as far as the type can tell.
+template <class Real>
+bool set_normal(Frame<Real>& frame);
 
 // Unit vector along (x, y, z) without over- or underflow; zero when it is zero.
 template <class Real>

@@ -1,94 +1,233 @@
 #include "core/mesh/topology.h"
 
-#include <numeric>
+#include <tuple>
 
 namespace subdivd {
 namespace {
 
-// Compressed rows: row k holds the items for which key(item) == k, in ascending order of items.
-template <class Key>
-void group(Count item_count, Index row_count, Key key, std::vector<Index>& items,
-           std::vector<Count>& offsets) {
-  offsets.assign(Count{row_count} + 1, 0);
-  for (Count item = 0; item < item_count; ++item) ++offsets[Count{key(static_cast<Index>(item))} + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  items.resize(item_count);
-  std::vector<Count> fill(offsets.begin(), offsets.end() - 1);
-  for (Count item = 0; item < item_count; ++item)
-    items[fill[key(static_cast<Index>(item))]++] = static_cast<Index>(item);
+// Between two polls of the budget.
+constexpr Index kFacesPerPoll = 1 << 18;
+
+// A vertex of more corners is not searched along a chain: a hub of a million edges must not cost a million
+// steps for each.
+constexpr Index kLongestChain = 64;
+
+// Turns counts[k + 1] per row k into offsets.
+void accumulate(Buffer<Index>& counts) {
+  for (std::size_t k = 1; k < counts.size(); ++k) counts[k] += counts[k - 1];
+}
+
+// Scatters item i to row key(i) for ascending i; offsets come back as they went in.
+template <class Key, class Item>
+void scatter(Count count, Key key, Item item, Buffer<Index>& offsets, Buffer<Index>& items) {
+  items.resize(count);
+  for (Count i = 0; i < count; ++i) items[offsets[key(i)]++] = item(i);
+  // Every row's begin has moved to its end: the next row's begin.
+  std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
+  offsets[0] = 0;
 }
 
 }  // namespace
 
+// Finds the edge of every half-edge. Edges hang in a chain at one of their ends, one of few corners; chains
+// are short, and a mesh whose faces come in any natural order finds them in the cache.
+class Topology::Numbering {
+ public:
+  explicit Numbering(Topology& topology)
+      : t_(topology), chains_(topology.vertex_count_, kNoIndex), half_edges_(topology.triangles_.size()) {
+    t_.half_edge_edges_.resize(half_edges_);
+    t_.edge_vertices_.reserve(half_edges_ / 2 + half_edges_ / 16 + 64);
+    next_.reserve(t_.edge_vertices_.capacity());
+  }
+
+  Result<void> run(const Budget& budget) {
+    sort_heavy();
+    for (Index face = 0; face < half_edges_ / 3; ++face) {
+      if (face % kFacesPerPoll == 0)
+        if (auto stop = budget.poll()) return *stop;
+      const Index* v = &t_.triangles_[3 * std::size_t{face}];
+      t_.half_edge_edges_[3 * face] = edge_of(3 * face, v[0], v[1]);
+      t_.half_edge_edges_[3 * face + 1] = edge_of(3 * face + 1, v[1], v[2]);
+      t_.half_edge_edges_[3 * face + 2] = edge_of(3 * face + 2, v[2], v[0]);
+    }
+    return {};
+  }
+
+ private:
+  bool is_heavy(Index v) const {
+    return t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v] > kLongestChain;
+  }
+
+  Index edge_of(Index h, Index a, Index b) {
+    const Index low = std::min(a, b), high = std::max(a, b);
+    Index home = low;
+    if (is_heavy(low)) {
+      if (is_heavy(high)) return heavy_edge(h, low, high);
+      home = high;
+    }
+    const std::array<Index, 2> ends{low, high};
+    for (Index e = chains_[home]; e != kNoIndex; e = next_[e])
+      if (t_.edge_vertices_[e] == ends) return e;
+    const Index e = t_.edge_count();
+    t_.edge_vertices_.push_back(ends);
+    next_.push_back(chains_[home]);
+    chains_[home] = e;
+    return e;
+  }
+
+  // Between two heavy vertices: the first half-edge along the edge, found beforehand by sorting, names it.
+  struct Heavy {
+    Index low, high, half_edge, first;
+  };
+  void sort_heavy() {
+    if (max_corners() <= kLongestChain) return;
+    for (Index h = 0; h < half_edges_; ++h) {
+      const Index a = t_.triangles_[h], b = t_.triangles_[next(h)];
+      if (is_heavy(a) && is_heavy(b)) heavy_.push_back({std::min(a, b), std::max(a, b), h, h});
+    }
+    std::ranges::sort(heavy_, {}, [](const Heavy& x) { return std::tuple(x.low, x.high, x.half_edge); });
+    for (std::size_t k = 1; k < heavy_.size(); ++k)
+      if (heavy_[k].low == heavy_[k - 1].low && heavy_[k].high == heavy_[k - 1].high)
+        heavy_[k].first = heavy_[k - 1].first;
+    std::ranges::sort(heavy_, {}, &Heavy::half_edge);
+  }
+  Index max_corners() const {
+    Index most = 0;
+    for (Index v = 0; v < t_.vertex_count_; ++v)
+      most = std::max(most, t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v]);
+    return most;
+  }
+  Index heavy_edge(Index h, Index low, Index high) {
+    const Heavy& heavy = heavy_[heavy_at_++];  // half-edges come in ascending order
+    if (heavy.first != h) return t_.half_edge_edges_[heavy.first];
+    t_.edge_vertices_.push_back({low, high});
+    next_.push_back(kNoIndex);
+    return t_.edge_count() - 1;
+  }
+
+  Topology& t_;
+  std::vector<Index> chains_;  // per vertex: the last edge that hangs there
+  Buffer<Index> next_;         // per edge: the one before it in its chain
+  std::vector<Heavy> heavy_;
+  std::size_t heavy_at_ = 0;
+  Count half_edges_;
+};
+
 Topology::Topology(Index vertex_count, std::vector<Index> triangles)
-    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
-  number_edges();
-  connect();
+    : Topology(std::move(*build(vertex_count, std::move(triangles), {}))) {}
+
+Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangles, const Budget& budget) {
+  Topology topology;
+  topology.vertex_count_ = vertex_count;
+  topology.triangles_ = std::move(triangles);
+  topology.group_corners();
+  if (auto done = Numbering(topology).run(budget); !done) return std::move(done).error();
+  if (auto done = topology.connect(budget); !done) return std::move(done).error();
+  return topology;
 }
 
-Topology::Topology(Index vertex_count, std::vector<Index> triangles, std::vector<Index> half_edge_edges,
-                   std::vector<std::array<Index, 2>> edge_vertices)
+Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
+                   Buffer<std::array<Index, 2>> edge_vertices)
     : vertex_count_(vertex_count),
       triangles_(std::move(triangles)),
       half_edge_edges_(std::move(half_edge_edges)),
       edge_vertices_(std::move(edge_vertices)) {
-  connect();
+  group_corners();
+  (void)connect({});  // an unlimited budget
 }
 
-void Topology::connect() {
-  const Count half_edges = triangles_.size();
-  group(
-      half_edges, edge_count(), [&](Index h) { return half_edge_edges_[h]; }, edge_half_edges_,
-      edge_offsets_);
-  group(
-      half_edges, vertex_count_, [&](Index h) { return triangles_[h]; }, vertex_corners_,
-      vertex_corner_offsets_);
-  group(
-      Count{2} * edge_count(), vertex_count_, [&](Index k) { return edge_vertices_[k / 2][k % 2]; },
-      vertex_edges_, vertex_edge_offsets_);
-  for (Index& item : vertex_edges_) item /= 2;
-  find_non_manifold_vertices();
-}
-
-void Topology::number_edges() {
-  const auto half_edges = static_cast<Index>(triangles_.size());
-  auto low = [&](Index h) { return std::min(triangles_[h], triangles_[next(h)]); };
-  auto high = [&](Index h) { return std::max(triangles_[h], triangles_[next(h)]); };
-  // Half-edges with the same lower end stand together; sorting them by the higher end brings together those
-  // of one edge, the first of which (lowest h) names the edge.
-  std::vector<Index> by_low;
-  std::vector<Count> offsets;
-  group(half_edges, vertex_count_, low, by_low, offsets);
-  std::vector<Index> first(half_edges);
-  for (Index v = 0; v < vertex_count_; ++v) {
-    const auto begin = by_low.begin() + static_cast<std::ptrdiff_t>(offsets[v]);
-    const auto end = by_low.begin() + static_cast<std::ptrdiff_t>(offsets[v + 1]);
-    std::stable_sort(begin, end, [&](Index a, Index b) { return high(a) < high(b); });
-    for (auto it = begin; it != end; ++it)
-      first[*it] = it != begin && high(*(it - 1)) == high(*it) ? first[*(it - 1)] : *it;
+Result<void> Topology::connect(const Budget& budget) {
+  for (auto part : {&Topology::pair_half_edges, &Topology::gather_crowds, &Topology::group_edges,
+                    &Topology::find_non_manifold_vertices}) {
+    if (auto stop = budget.poll()) return *stop;
+    (this->*part)();
   }
-  half_edge_edges_.resize(half_edges);
-  for (Index h = 0; h < half_edges; ++h) {
-    if (first[h] == h) {
-      half_edge_edges_[h] = edge_count();
-      edge_vertices_.push_back({low(h), high(h)});
+  return {};
+}
+
+void Topology::pair_half_edges() {
+  mates_.resize(triangles_.size());
+  edge_sides_.assign(edge_count(), {kNoIndex, kNoIndex});
+  edge_kinds_.assign(edge_count(), EdgeKind::border);
+  for (Index h = 0; h < triangles_.size(); ++h) {
+    const Index e = half_edge_edges_[h];
+    auto& sides = edge_sides_[e];
+    mates_[h] = kNoIndex;
+    if (sides[0] == kNoIndex) {
+      sides[0] = h;
+    } else if (sides[1] == kNoIndex) {
+      sides[1] = h;
+      const Index first = sides[0];
+      if (triangles_[first] == triangles_[h]) {
+        edge_kinds_[e] = EdgeKind::clash;
+      } else {
+        edge_kinds_[e] = EdgeKind::manifold;
+        mates_[h] = first;
+        mates_[first] = h;
+      }
     } else {
-      half_edge_edges_[h] = half_edge_edges_[first[h]];
+      if (edge_kinds_[e] != EdgeKind::crowded) crowded_edges_.push_back(e);
+      edge_kinds_[e] = EdgeKind::crowded;
+      mates_[sides[0]] = mates_[sides[1]] = kNoIndex;
     }
   }
 }
 
-bool Topology::is_non_manifold_edge(Index e) const {
-  const auto half_edges = edge_half_edges(e);
-  return half_edges.size() > 2 ||
-         (half_edges.size() == 2 && triangles_[half_edges[0]] == triangles_[half_edges[1]]);
+void Topology::gather_crowds() {
+  if (crowded_edges_.empty()) return;
+  std::ranges::sort(crowded_edges_);
+  std::vector<std::pair<Index, Index>> members;  // position in crowded_edges_, half-edge
+  for (Index h = 0; h < triangles_.size(); ++h)
+    if (const Index e = half_edge_edges_[h]; edge_kinds_[e] == EdgeKind::crowded)
+      members.emplace_back(
+          static_cast<Index>(std::ranges::lower_bound(crowded_edges_, e) - crowded_edges_.begin()), h);
+  std::ranges::sort(members);
+  crowd_offsets_.assign(crowded_edges_.size() + 1, 0);
+  for (const auto& [position, h] : members) {
+    crowd_half_edges_.push_back(h);
+    crowd_offsets_[position + 1] = static_cast<Index>(crowd_half_edges_.size());
+  }
 }
 
-Index Topology::mate(Index h) const {
-  const auto half_edges = edge_half_edges(half_edge_edges_[h]);
-  if (half_edges.size() != 2) return kNoIndex;
-  const Index other = half_edges[0] == h ? half_edges[1] : half_edges[0];
-  return triangles_[other] == triangles_[next(h)] ? other : kNoIndex;
+std::span<const Index> Topology::crowd_of(Index e) const {
+  const auto k =
+      static_cast<std::size_t>(std::ranges::lower_bound(crowded_edges_, e) - crowded_edges_.begin());
+  return std::span(crowd_half_edges_).subspan(crowd_offsets_[k], crowd_offsets_[k + 1] - crowd_offsets_[k]);
+}
+
+void Topology::group_corners() {
+  vertex_corner_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
+  for (const Index v : triangles_) ++vertex_corner_offsets_[v + 1];
+  accumulate(vertex_corner_offsets_);
+  scatter(
+      triangles_.size(), [&](Count h) { return triangles_[h]; },
+      [](Count h) { return static_cast<Index>(h); }, vertex_corner_offsets_, vertex_corners_);
+}
+
+void Topology::group_edges() {
+  vertex_edge_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
+  for (const auto& ends : edge_vertices_) {
+    ++vertex_edge_offsets_[ends[0] + 1];
+    ++vertex_edge_offsets_[ends[1] + 1];
+  }
+  accumulate(vertex_edge_offsets_);
+  scatter(
+      Count{2} * edge_count(), [&](Count k) { return edge_vertices_[k / 2][k % 2]; },
+      [](Count k) { return static_cast<Index>(k / 2); }, vertex_edge_offsets_, vertex_edges_);
+}
+
+bool Topology::is_one_fan(std::span<const Index> corners) const {
+  // One fan holds every corner: walk from a border corner, or all the way round.
+  Index start = corners[0];
+  for (const Index h : corners)
+    if (mates_[h] == kNoIndex) start = h;
+  std::size_t count = 0;
+  Index h = start;
+  do {
+    ++count;
+    h = mates_[prev(h)];
+  } while (h != kNoIndex && h != start);
+  return count == corners.size();
 }
 
 void Topology::find_non_manifold_vertices() {
@@ -100,18 +239,7 @@ void Topology::find_non_manifold_vertices() {
     }
   for (Index v = 0; v < vertex_count_; ++v) {
     const auto corners = vertex_corners(v);
-    if (corners.empty() || non_manifold_vertices_[v] != 0) continue;
-    // One fan holds every corner: walk from a border corner, or all the way round.
-    Index start = corners[0];
-    for (Index h : corners)
-      if (mate(h) == kNoIndex) start = h;
-    std::size_t count = 0;
-    Index h = start;
-    do {
-      ++count;
-      h = mate(prev(h));
-    } while (h != kNoIndex && h != start);
-    non_manifold_vertices_[v] = count != corners.size();
+    if (!corners.empty() && non_manifold_vertices_[v] == 0) non_manifold_vertices_[v] = !is_one_fan(corners);
   }
 }
 

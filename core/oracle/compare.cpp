@@ -27,7 +27,7 @@ constexpr const char* kTorn = "Far tears a value that two separate groups of fac
 using Vector = std::array<double, 3>;
 
 template <class Real>
-Vector vector_at(const std::vector<Real>& values, Index v) {
+Vector vector_at(std::span<const Real> values, Index v) {
   const std::size_t at = std::size_t{3} * v;
   return {double{values[at]}, double{values[at + 1]}, double{values[at + 2]}};
 }
@@ -106,8 +106,8 @@ const char* normal_objection(const FarVertex& vertex) {
 
 // Distances of 3-vectors, one per vertex.
 template <class Real>
-Deviation compare_points(const Sides<Real>& sides, const char* quantity, const std::vector<Real>& ours,
-                         const std::vector<Real>& far, bool limit) {
+Deviation compare_points(const Sides<Real>& sides, const char* quantity, std::span<const Real> ours,
+                         std::span<const Real> far, bool limit) {
   const double tolerance = sides.value_tolerance * sides.scale.remoteness;
   if (ours.size() != 3 * sides.ours.provenance.size() || far.size() != 3 * sides.far.vertices.size())
     return incomparable(quantity, tolerance);
@@ -115,8 +115,8 @@ Deviation compare_points(const Sides<Real>& sides, const char* quantity, const s
   sides.for_each_pair([&](Index f, Index v) {
     const char* objection = limit ? limit_objection(sides.far.vertices[f]) : nullptr;
     if (objection != nullptr) return tally.except(objection);
-    Vector difference = vector_at(ours, v);
-    const Vector other = vector_at(far, f);
+    Vector difference = vector_at<Real>(ours, v);
+    const Vector other = vector_at<Real>(far, f);
     for (std::size_t k = 0; k < 3; ++k)
       difference[k] = difference[k] / sides.scale.diagonal - other[k] / sides.scale.diagonal;
     tally.add(std::sqrt(dot(difference, difference)), sides.site(v));
@@ -139,8 +139,8 @@ Deviation compare_normals(const Sides<Real>& sides) {
                           sides.scale.remoteness * 2 / (normal_tolerance<Real>() * std::numbers::pi / 180);
   sides.for_each_pair([&](Index f, Index v) {
     if (const char* objection = normal_objection(far.vertices[f])) return tally.except(objection);
-    const Vector ours = vector_at(sides.ours.normals, v);
-    const Vector u = vector_at(far.tangents_u, f), v_across = vector_at(far.tangents_v, f);
+    const Vector ours = vector_at<Real>(sides.ours.normals, v);
+    const Vector u = vector_at<Real>(far.tangents_u, f), v_across = vector_at<Real>(far.tangents_v, f);
     const Vector theirs = cross(unit(u), unit(v_across));
     const double sine = std::sqrt(dot(theirs, theirs));
     // |u x v| / (|u| + |v|) in a form that neither over- nor underflows.
@@ -200,8 +200,8 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
 
 // Every index that for_each_value will use is within its array.
 template <class Real>
-bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, const std::vector<Real>& our_values,
-              const std::vector<Real>& far_values) {
+bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, std::span<const Real> our_values,
+              std::span<const Real> far_values) {
   const Count width = ours.element_size;
   const auto holds = [&](Count count) { return our_values.size() == count * width; };
   switch (ours.interpolation) {
@@ -230,8 +230,8 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
   if (p >= sides.ours.primvars.size()) return incomparable(quantity, tolerance);
   const RefinedPrimvar<Real>& ours = sides.ours.primvars[p];
   const FarPrimvar<Real>& far = sides.far.primvars[p];
-  const std::vector<Real>& our_values = limit ? ours.limit_values : ours.values;
-  const std::vector<Real>& far_values = limit ? far.limit_values : far.values;
+  const std::span<const Real> our_values = limit ? ours.limit_values : ours.values;
+  const std::span<const Real> far_values = limit ? far.limit_values : far.values;
   if (ours.interpolation != control.interpolation || ours.element_size != control.element_size ||
       !complete(sides, ours, our_values, far_values))
     return incomparable(quantity, tolerance);
@@ -263,10 +263,10 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
   report.connectivity_identical = pairs.identical;
   report.vertices = ours.provenance.size();
   report.triangles = ours.triangle_faces.size();
-  report.deviations.push_back(compare_points(sides, "points", ours.points, far.points, false));
+  report.deviations.push_back(compare_points<Real>(sides, "points", ours.points, far.points, false));
   if (!ours.limit_points.empty())
     report.deviations.push_back(
-        compare_points(sides, "limitPoints", ours.limit_points, far.limit_points, true));
+        compare_points<Real>(sides, "limitPoints", ours.limit_points, far.limit_points, true));
   if (!ours.normals.empty()) report.deviations.push_back(compare_normals(sides));
   for (std::size_t p = 0; p < mesh.primvars.size(); ++p) {
     report.deviations.push_back(compare_primvar(sides, p, false));

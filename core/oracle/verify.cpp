@@ -58,6 +58,7 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
     RefineOptions step = options;
     step.level = level;
     step.tangents = false;
+    step.connectivity = step.provenance = true;  // what is matched
     const auto far = far_refine<Real>(mesh, step, budget);
     if (!far) return far.error();
     const auto ours = refine<Real>(mesh, step, budget);

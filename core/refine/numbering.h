@@ -27,6 +27,27 @@ class Numbering {
     return static_cast<Index>(face_begin_ + face * inner_points(n) + inner_index(n, i, j));
   }
 
+  // The k-th point of base edge e from its lower-numbered end, 0..n.
+  Index along(Index e, Count k) const {
+    if (k == 0) return topology_->edge_vertices(e)[0];
+    if (k == n_) return topology_->edge_vertices(e)[1];
+    return static_cast<Index>(edge_begin_ + e * (n_ - 1) + k - 1);
+  }
+
+  // The row of points next to half-edge h and parallel to it, in h's direction: p = 0..n-1. Point p and the
+  // h's points p and p + 1 are a triangle.
+  Index beside(Index h, Count p) const {
+    const Count n = n_;
+    switch (h % 3) {
+      case 0:
+        return vertex(h / 3, p, 1);
+      case 1:
+        return vertex(h / 3, n - 1 - p, p);
+      default:
+        return vertex(h / 3, 1, n - 1 - p);
+    }
+  }
+
  private:
   // The point `k` segments from corner `corner` towards the next corner.
   Index on_edge(Index face, Index corner, Count k) const {
@@ -40,6 +61,25 @@ class Numbering {
 
   const Topology* topology_;
   Count n_, edge_begin_, face_begin_;
+};
+
+// The numbers of one face's points, edge by edge: point p = 1..n-1 of side k, counted from corner k, has the
+// number side[k] + (p - 1) step[k], modulo 2^32; those inside start at `inside`.
+struct FaceNumbers {
+  Index corner[3], side[3], step[3], inside;
+
+  FaceNumbers(const Topology& topology, Count n, Index face) {
+    const Index edge_begin = topology.vertex_count();
+    for (Index k = 0; k < 3; ++k) {
+      const Index h = 3 * face + k;
+      corner[k] = topology.corner_vertex(h);
+      const Index first = static_cast<Index>(edge_begin + Count{topology.half_edge_edge(h)} * (n - 1));
+      const bool forward = corner[k] < topology.corner_vertex(Topology::next(h));
+      side[k] = forward ? first : static_cast<Index>(first + n - 2);
+      step[k] = forward ? 1 : static_cast<Index>(-1);
+    }
+    inside = static_cast<Index>(edge_begin + Count{topology.edge_count()} * (n - 1) + face * inner_points(n));
+  }
 };
 
 // Calls f(i0, j0, i1, j1, i2, j2) for the corners of all n^2 triangles of a face, in their order.

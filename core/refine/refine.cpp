@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
-#include "core/limit/limit.h"
-#include "core/refine/control.h"
+#include "core/refine/evaluate.h"
 #include "core/refine/numbering.h"
-#include "core/refine/plain.h"
+#include "core/refine/plan.h"
 #include "core/refine/render_mesh.h"
-#include "core/schemes/all.h"
+#include "core/refine/size.h"
+#include "core/refine/triangles.h"
 
 namespace subdivd {
 namespace {
@@ -43,160 +42,44 @@ Result<void> check_magnitudes(const ControlMesh& mesh) {
 }
 
 // Rows of `from`, `width` scalars each, in the order of `rows`.
-template <class Real, class Scalar>
-std::vector<Real> gathered(const std::vector<Scalar>& from, Index width, const std::vector<Index>& rows) {
-  std::vector<Real> to;
-  to.reserve(rows.size() * width);
-  for (Index row : rows) {
-    const auto first = from.begin() + static_cast<std::ptrdiff_t>(Count{row} * width);
-    to.insert(to.end(), first, first + width);
-  }
+template <class Real>
+Buffer<Real> gathered(const std::vector<double>& from, Index width, std::span<const Index> rows) {
+  Buffer<Real> to(rows.size() * width);
+  auto at = to.begin();
+  for (const Index row : rows)
+    at = std::transform(from.begin() + static_cast<std::ptrdiff_t>(Count{row} * width),
+                        from.begin() + static_cast<std::ptrdiff_t>(Count{row} * width + width), at,
+                        [](double x) { return static_cast<Real>(x); });
+  return to;
+}
+
+template <class Real>
+Buffer<Real> converted(const std::vector<double>& from) {
+  Buffer<Real> to(from.size());
+  std::ranges::transform(from, to.begin(), [](double x) { return static_cast<Real>(x); });
   return to;
 }
 
 // The values that a primvar gives to each element in turn, indices resolved.
 template <class Real>
-std::vector<Real> resolved_values(const Primvar& primvar) {
-  if (primvar.indices.empty()) return {primvar.values.begin(), primvar.values.end()};
+Buffer<Real> resolved_values(const Primvar& primvar) {
+  if (primvar.indices.empty()) return converted<Real>(primvar.values);
   return gathered<Real>(primvar.values, primvar.element_size, primvar.indices);
 }
 
-// A set of values on the vertices of a mesh or channel.
+// refine(), part by part.
 template <class Real>
-struct Values {
-  Index width;
-  bool linear;
-  std::vector<Real> values;
-};
-
-// A mesh, or a channel of it, through all levels, together with the values on it.
-template <class Scheme, class Real>
-class Refinement {
- public:
-  Refinement(const Scheme& scheme, const RefineOptions& options, plain::Level level, const Budget& budget)
-      : scheme_(scheme),
-        options_(options),
-        budget_(budget),
-        base_(level.topology),
-        level_(std::move(level)) {}
-
-  // One level on. `next_mesh`: for a channel, the mesh one level on; for the mesh itself null.
-  Result<void> step(std::vector<Values<Real>>& sets, const plain::Level* next_mesh) {
-    for (Values<Real>& set : sets) {
-      auto values = plain::refine_values<Scheme, Real>(scheme_, options_.crease_method, level_, set.values,
-                                                       set.width, set.linear, budget_);
-      if (!values) return std::move(values).error();
-      set.values = std::move(*values);
-    }
-    auto next = next_mesh != nullptr ? plain::next_level(level_, *next_mesh, budget_)
-                                     : plain::next_level(level_, options_.crease_method, budget_);
-    if (!next) return std::move(next).error();
-    level_ = std::move(*next);
-    return {};
-  }
-
-  void number() { numbers_ = plain::closed_form_numbers(base_, options_.level, level_); }
-  const plain::Level& level() const { return level_; }
-
-  // The refined values in the order of the closed form.
-  std::vector<Real> take(const Values<Real>& set) const {
-    std::vector<Real> out(set.values.size());
-    for (std::size_t v = 0; v < numbers_.size(); ++v)
-      std::copy_n(set.values.data() + v * set.width, set.width,
-                  out.data() + std::size_t{numbers_[v]} * set.width);
-    return out;
-  }
-
-  // `mesh`: the last level of the mesh; for the mesh itself its own.
-  Result<std::vector<Real>> limits(const Values<Real>& set, const plain::Level& mesh) const {
-    if (level_.linear || set.linear) return take(set);
-    std::vector<Real> out(set.values.size());
-    auto limit = [&](Index v, const LimitRing<Scheme, Real>& ring) {
-      std::ranges::copy(ring.position(), out.data() + std::size_t{numbers_[v]} * set.width);
-    };
-    if (auto done = for_each_ring(set, mesh, limit); !done) return std::move(done).error();
-    return out;
-  }
-
-  // Tangents and normals of the points, into `out`.
-  Result<void> frames(const Values<Real>& points, RefinedMesh<Real>& out) const {
-    if (options_.tangents) {
-      out.tangents_u.resize(points.values.size());
-      out.tangents_v.resize(points.values.size());
-    }
-    if (options_.normals) out.normals.resize(points.values.size());
-    return for_each_ring(points, level_, [&](Index v, const LimitRing<Scheme, Real>& ring) {
-      const std::vector<Frame<Real>> frames = ring.frames();
-      const std::size_t at = std::size_t{3} * numbers_[v];
-      if (options_.tangents && !frames.empty()) {
-        std::copy_n(frames[0].u, 3, out.tangents_u.data() + at);
-        std::copy_n(frames[0].v, 3, out.tangents_v.data() + at);
-      }
-      if (options_.normals) mean_normal<Real>(frames, out.normals.data() + at);
-    });
-  }
-
- private:
-  template <class F>
-  Result<void> for_each_ring(const Values<Real>& set, const plain::Level& mesh, F&& f) const {
-    const Sharp own{level_.topology, level_.sharpness}, above{mesh.topology, mesh.sharpness};
-    for (Index v = 0; v < level_.topology.vertex_count(); ++v) {
-      if (v % 4096 == 0)
-        if (auto stop = budget_.poll()) return *stop;
-      f(v, LimitRing<Scheme, Real>(scheme_, options_.crease_method, own, above, v, set.values, set.width));
-    }
-    return {};
-  }
-
-  Scheme scheme_;
-  const RefineOptions& options_;
-  const Budget& budget_;
-  Topology base_;
-  plain::Level level_;
-  std::vector<Index> numbers_;  // of the last level's vertices, by the closed form
-};
-
-std::vector<Index> triangles_of(const Numbering& numbering, std::span<const unsigned char> holes) {
-  std::vector<Index> indices;
-  const Count n = numbering.segment_count();
-  indices.reserve(3 * n * n * static_cast<Count>(std::ranges::count(holes, 0)));
-  for (Index f = 0; f < holes.size(); ++f)
-    if (holes[f] == 0)
-      for_each_triangle(n, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
-        indices.push_back(numbering.vertex(f, i0, j0));
-        indices.push_back(numbering.vertex(f, i1, j1));
-        indices.push_back(numbering.vertex(f, i2, j2));
-      });
-  return indices;
-}
-
-std::vector<Provenance> provenance_of(const Numbering& numbering, Index face_count) {
-  std::vector<Provenance> provenance(numbering.vertex_count());
-  const Count n = numbering.segment_count();
-  for (Index f = face_count; f-- > 0;)  // backwards: the lowest-numbered face wins
-    for (Count j = 0; j <= n; ++j)
-      for (Count i = 0; i + j <= n; ++i)
-        provenance[numbering.vertex(f, i, j)] = {f, static_cast<Index>(i), static_cast<Index>(j)};
-  return provenance;
-}
-
-// refine() for one scheme, part by part.
-template <class Scheme, class Real>
 class Job {
  public:
-  Job(const Scheme& scheme, const ControlMesh& mesh, const RefineOptions& options, const Budget& budget)
-      : scheme_(scheme),
-        mesh_(mesh),
-        options_(options),
-        budget_(budget),
-        control_(make_control(mesh, options.crease_method)) {}
+  Job(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget, const Plan& plan)
+      : mesh_(mesh), options_(options), budget_(budget), plan_(plan) {}
 
   Result<RefinedMesh<Real>> run() {
-    auto size = size_of<Real>(mesh_, options_, control_);
-    if (!size) return std::move(size).error();
-    if (auto fits = budget_.check_bytes(size->bytes); !fits) return std::move(fits).error();
-    for (auto part : {&Job::refine_connectivity, &Job::gather, &Job::refine_levels, &Job::write_points,
-                      &Job::write_channels, &Job::write_face_values}) {
+    out_.name = mesh_.name;
+    out_.level = options_.level;
+    out_.triangle_count = plan_.counts(options_.level).triangles;
+    for (auto part : {&Job::refine_points, &Job::refine_connectivity, &Job::refine_primvars,
+                      &Job::refine_render_meshes}) {
       if (auto stop = budget_.poll()) return *stop;
       if (auto done = (this->*part)(); !done) return std::move(done).error();
     }
@@ -204,124 +87,130 @@ class Job {
   }
 
  private:
-  Result<void> refine_connectivity() {
-    const Numbering numbering(control_.topology, options_.level);
-    out_.name = mesh_.name;
-    out_.level = options_.level;
-    out_.triangles = triangles_of(numbering, control_.holes);
-    out_.provenance = provenance_of(numbering, control_.topology.face_count());
-    out_.triangle_faces.reserve(out_.triangles.size() / 3);
-    for (Index f = 0; f < control_.holes.size(); ++f)
-      if (control_.holes[f] == 0)
-        out_.triangle_faces.insert(out_.triangle_faces.end(), Count{1} << (2 * options_.level), f);
-    for (const RenderMesh& render : mesh_.render_meshes) {
-      if (auto stop = budget_.poll()) return *stop;
-      out_.render_meshes.push_back(refine_render_mesh(render, options_.level, control_.holes));
-    }
-    for (const Primvar& primvar : mesh_.primvars)
-      out_.primvars.push_back({primvar.name, primvar.interpolation, primvar.element_size, {}, {}, {}});
-    return {};
-  }
-
-  // The mesh, or one channel, with the values on it and where their refined form goes.
-  struct Part {
-    Refinement<Scheme, Real> refinement;
-    std::vector<Values<Real>> sets;
-    struct Target {
-      std::vector<Real>*values, *limit_values;
+  Result<void> refine_points() {
+    const Count size = 3 * plan_.mesh().value_count(options_.level);
+    Evaluated<Real> to;
+    const auto array = [&](Buffer<Real>& buffer) {
+      buffer.resize(size);
+      return buffer.data();
     };
-    std::vector<Target> targets;
-    const Topology* topology;
-  };
+    to.values = array(out_.points);
+    if (options_.limit) to.limits = array(out_.limit_points);
+    if (options_.tangents) {
+      to.tangents_u = array(out_.tangents_u);
+      to.tangents_v = array(out_.tangents_v);
+    }
+    if (options_.normals) to.normals = array(out_.normals);
+    const Buffer<Real> control = converted<Real>(mesh_.points);
+    return evaluate<Real>(plan_.mesh(), options_.level, control, 3, Smoothing::smooth, to, options_.threads,
+                          budget_);
+  }
 
-  // Positions and the primvars that live on the points make one part, every channel another.
-  Result<void> gather() {
-    plain::Level mesh = plain::first_level(control_.topology, control_.sharpness, options_.crease_method);
+  Result<void> write_indices(const Net& net, Buffer<Index>& out) {
+    if (!options_.connectivity) return {};
+    out.resize(3 * plan_.counts(options_.level).triangles);
+    return write_triangles(net.topology(), options_.level, plan_.holes(), out.data(), options_.threads,
+                           budget_);
+  }
+
+  Result<void> refine_connectivity() {
+    if (auto done = write_indices(plan_.mesh(), out_.triangles); !done) return done;
+    if (!options_.provenance) return {};
+    out_.provenance = provenance();
+    out_.triangle_faces = triangle_faces();
+    return {};
+  }
+
+  Buffer<Provenance> provenance() const {
+    const Numbering numbering(plan_.mesh().topology(), options_.level);
+    const Count n = numbering.segment_count();
+    Buffer<Provenance> places(numbering.vertex_count());
+    std::fill_n(places.begin(), plan_.mesh().topology().vertex_count(), Provenance{});
+    for (Index f = plan_.mesh().topology().face_count();
+         f-- > 0;)  // backwards: the lowest-numbered face wins
+      for (Count j = 0; j <= n; ++j)
+        for (Count i = 0; i + j <= n; ++i)
+          places[numbering.vertex(f, i, j)] = {f, static_cast<Index>(i), static_cast<Index>(j)};
+    return places;
+  }
+
+  Buffer<Index> triangle_faces() const {
+    Buffer<Index> faces(plan_.counts(options_.level).triangles);
+    auto at = faces.begin();
+    for (Index f = 0; f < plan_.holes().size(); ++f)
+      if (plan_.holes()[f] == 0) at = std::fill_n(at, std::ptrdiff_t{1} << (2 * options_.level), f);
+    return faces;
+  }
+
+  Result<void> refine_values(const Net& net, const Buffer<Real>& control, Smoothing smoothing, bool limit,
+                             RefinedPrimvar<Real>& out) {
+    const Count size = net.value_count(options_.level) * out.element_size;
+    Evaluated<Real> to;
+    out.values.resize(size);
+    to.values = out.values.data();
+    if (limit) {
+      out.limit_values.resize(size);
+      to.limits = out.limit_values.data();
+    }
+    return evaluate<Real>(net, options_.level, control, out.element_size, smoothing, to, options_.threads,
+                          budget_);
+  }
+
+  Result<void> refine_primvars() {
     std::size_t channel = 0;
-    for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
-      if (mesh_.primvars[k].interpolation != Interpolation::face_varying) continue;
-      const Channel& own = control_.channels[channel++];
-      const Primvar& primvar = mesh_.primvars[k];
-      RefinedPrimvar<Real>& out = out_.primvars[k];
-      channels_.push_back(
-          {{scheme_, options_, plain::first_level(own, mesh), budget_},
-           {{primvar.element_size, false, gathered<Real>(primvar.values, primvar.element_size, own.values)}},
-           {{&out.values, &out.limit_values}},
-           &own.topology});
-      channel_primvars_.push_back(&out);
-    }
-    points_.emplace(Part{{scheme_, options_, std::move(mesh), budget_},
-                         {{3, false, {mesh_.points.begin(), mesh_.points.end()}}},
-                         {{&out_.points, &out_.limit_points}},
-                         &control_.topology});
-    for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
-      const Primvar& primvar = mesh_.primvars[k];
-      const bool varying = primvar.interpolation == Interpolation::varying;
-      if (!varying && primvar.interpolation != Interpolation::vertex) continue;
-      points_->sets.push_back({primvar.element_size, varying, resolved_values<Real>(primvar)});
-      points_->targets.push_back({&out_.primvars[k].values, &out_.primvars[k].limit_values});
-    }
-    return {};
-  }
-
-  // All parts level by level together: the channels' sharpness is the mesh's.
-  Result<void> refine_levels() {
-    for (Index level = 0; level < options_.level; ++level) {
-      if (auto done = points_->refinement.step(points_->sets, nullptr); !done) return done;
-      for (Part& part : channels_)
-        if (auto done = part.refinement.step(part.sets, &points_->refinement.level()); !done) return done;
+    for (const Primvar& primvar : mesh_.primvars) {
+      RefinedPrimvar<Real>& out =
+          out_.primvars.emplace_back(primvar.name, primvar.interpolation, primvar.element_size);
+      Result<void> done;
+      switch (primvar.interpolation) {
+        case Interpolation::constant:
+          out.values = resolved_values<Real>(primvar);
+          break;
+        case Interpolation::uniform:
+          out.values = gathered<Real>(primvar.values, primvar.element_size, uniform_rows(primvar));
+          break;
+        case Interpolation::varying:
+          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar), Smoothing::linear, false, out);
+          break;
+        case Interpolation::vertex:
+          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar), Smoothing::smooth,
+                               options_.limit, out);
+          break;
+        case Interpolation::face_varying: {
+          const Net& net = plan_.channel(channel++);
+          done = refine_values(net, gathered<Real>(primvar.values, primvar.element_size, net.value_indices()),
+                               Smoothing::smooth, options_.limit, out);
+          if (done) done = write_indices(net, out.indices);
+          break;
+        }
+      }
+      if (!done) return done;
     }
     return {};
   }
 
-  Result<void> write(Part& part) {
-    part.refinement.number();
-    for (std::size_t k = 0; k < part.sets.size(); ++k) {
-      *part.targets[k].values = part.refinement.take(part.sets[k]);
-      if (!options_.limit || part.sets[k].linear) continue;
-      auto limits = part.refinement.limits(part.sets[k], points_->refinement.level());
-      if (!limits) return std::move(limits).error();
-      *part.targets[k].limit_values = std::move(*limits);
+  // Row of the primvar's values for every output triangle.
+  Buffer<Index> uniform_rows(const Primvar& primvar) const {
+    Buffer<Index> rows = triangle_faces();
+    if (!primvar.indices.empty())
+      for (Index& row : rows) row = primvar.indices[row];
+    return rows;
+  }
+
+  Result<void> refine_render_meshes() {
+    for (const RenderMesh& render : mesh_.render_meshes) {
+      auto refined = refine_render_mesh(render, plan_, options_.level, options_.threads, budget_);
+      if (!refined) return std::move(refined).error();
+      out_.render_meshes.push_back(std::move(*refined));
     }
     return {};
   }
 
-  Result<void> write_points() {
-    if (auto done = write(*points_); !done) return done;
-    if (!options_.tangents && !options_.normals) return {};
-    return points_->refinement.frames(points_->sets[0], out_);
-  }
-
-  Result<void> write_channels() {
-    for (std::size_t k = 0; k < channels_.size(); ++k) {
-      if (auto done = write(channels_[k]); !done) return done;
-      channel_primvars_[k]->indices =
-          triangles_of(Numbering(*channels_[k].topology, options_.level), control_.holes);
-    }
-    return {};
-  }
-
-  Result<void> write_face_values() {
-    for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
-      const Primvar& primvar = mesh_.primvars[k];
-      if (primvar.interpolation == Interpolation::constant)
-        out_.primvars[k].values = resolved_values<Real>(primvar);
-      if (primvar.interpolation == Interpolation::uniform)
-        out_.primvars[k].values =
-            gathered<Real>(resolved_values<Real>(primvar), primvar.element_size, out_.triangle_faces);
-    }
-    return {};
-  }
-
-  Scheme scheme_;
   const ControlMesh& mesh_;
   const RefineOptions& options_;
   const Budget& budget_;
-  Control control_;
+  const Plan& plan_;
   RefinedMesh<Real> out_;
-  std::optional<Part> points_;
-  std::vector<Part> channels_;
-  std::vector<RefinedPrimvar<Real>*> channel_primvars_;
 };
 
 }  // namespace
@@ -330,17 +219,13 @@ template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options,
                                  const Budget& budget) {
   if (auto fits = check_magnitudes<Real>(mesh); !fits) return std::move(fits).error();
-  std::optional<Result<RefinedMesh<Real>>> result;
-  visit_scheme(mesh.subdivision_scheme, [&]<class S>(std::type_identity<S>) {
-    result = Job<S, Real>(S{options.loop_weights}, mesh, options, budget).run();
-  });
-  if (!result)
-    return Error{ErrorCode::bad_enum,
-                 "\"" + mesh.subdivision_scheme + "\" is no scheme of this version; valid: \"loop\"",
-                 {"subdivisionScheme"},
-                 0,
-                 0};
-  return std::move(*result);
+  if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
+  const auto plan = Plan::build(mesh, {options.loop_weights, options.crease_method, options.level}, budget);
+  if (!plan) return plan.error();
+  const auto size = size_of<Real>(mesh, options, *plan, budget);
+  if (!size) return size.error();
+  if (auto fits = budget.check_bytes(size->bytes); !fits) return std::move(fits).error();
+  return Job<Real>(mesh, options, budget, *plan).run();
 }
 
 template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const RefineOptions&, const Budget&);

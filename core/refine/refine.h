@@ -17,9 +17,12 @@ struct RefineOptions {
   Index level = 2;  // 0..kMaxLevel
   LoopWeights loop_weights = LoopWeights::loop;
   CreaseMethod crease_method = CreaseMethod::uniform;
-  bool limit = false;     // fill limit_points and limit_values: where refining for ever would lead
-  bool tangents = false;  // fill tangents_u, tangents_v
-  bool normals = false;   // fill normals: unit normals of the limit surface
+  bool limit = false;        // fill limit_points and limit_values: where refining for ever would lead
+  bool tangents = false;     // fill tangents_u, tangents_v
+  bool normals = false;      // fill normals: unit normals of the limit surface
+  bool connectivity = true;  // fill triangles and the primvars' indices; render meshes have their own
+  bool provenance = true;    // fill provenance and triangle_faces
+  Index threads = 1;         // how many work on it; the answer is the same for any number
 };
 
 // What refine() would return, known beforehand. Linear in the size of the control mesh (it builds adjacency).

@@ -4,41 +4,65 @@
 
 #include "core/mesh/topology.h"
 #include "core/refine/numbering.h"
+#include "core/refine/triangles.h"
 
 namespace subdivd {
+namespace {
 
-RefinedRenderMesh refine_render_mesh(const RenderMesh& mesh, Index level,
-                                     std::span<const unsigned char> holes) {
-  const Topology topology(mesh.vertex_count, mesh.indices);
-  const Numbering numbering(topology, level);
-  const Count n = numbering.segment_count();
-  RefinedRenderMesh refined;
-  refined.vertex_count = static_cast<Index>(numbering.vertex_count());
-  const auto output_faces = [&](Index begin, Index end) {
-    return static_cast<Count>(std::count(holes.begin() + begin, holes.begin() + end, 0));
-  };
-  refined.triangle_begin = static_cast<Index>(output_faces(0, mesh.face_begin) * n * n);
-  refined.triangle_end =
-      static_cast<Index>(refined.triangle_begin + output_faces(mesh.face_begin, mesh.face_end) * n * n);
-  refined.indices.reserve(3 * (Count{refined.triangle_end} - refined.triangle_begin));
-  for (Index f = mesh.face_begin; f < mesh.face_end; ++f) {
-    if (holes[f] != 0) continue;
-    const Index own = f - mesh.face_begin;
-    for_each_triangle(n, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
-      refined.indices.push_back(numbering.vertex(own, i0, j0));
-      refined.indices.push_back(numbering.vertex(own, i1, j1));
-      refined.indices.push_back(numbering.vertex(own, i2, j2));
-    });
+// For every refined vertex of the render mesh the refined vertex of `net` at the same place of the same face.
+Buffer<Index> sources_of(const Topology& render, const Topology& net, Index first_face, Index level,
+                         std::span<const unsigned char> holes, Count vertex_count) {
+  const Count n = segments(level);
+  Buffer<Index> sources(vertex_count);
+  std::ranges::fill(sources, kNoIndex);
+  for (Index face = 0; face < render.face_count(); ++face) {
+    if (holes[face] != 0) continue;
+    const FaceNumbers to(render, n, face), from(net, n, first_face + face);
+    for (int k = 0; k < 3; ++k) {
+      sources[to.corner[k]] = from.corner[k];
+      for (Index p = 0; p + 1 < n; ++p)
+        sources[static_cast<Index>(to.side[k] + p * to.step[k])] = from.side[k] + p * from.step[k];
+    }
+    for (Index p = 0; p < inner_points(n); ++p) sources[to.inside + p] = from.inside + p;
   }
-  refined.source_corner.assign(refined.vertex_count, kNoIndex);
-  for (Count k = refined.indices.size(); k-- > 0;)  // backwards: the first corner wins
-    refined.source_corner[refined.indices[k]] = static_cast<Index>(3 * Count{refined.triangle_begin} + k);
+  return sources;
+}
+
+}  // namespace
+
+Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan& plan, Index level,
+                                             Index threads, const Budget& budget) {
+  const auto topology = Topology::build(mesh.vertex_count, mesh.indices, budget);
+  if (!topology) return topology.error();
+  const Count n = segments(level);
+  const auto holes = plan.holes();
+  const auto own_holes = holes.subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
+  RefinedRenderMesh refined;
+  refined.vertex_count = static_cast<Index>(Numbering(*topology, level).vertex_count());
+  const auto triangles = [&](std::span<const unsigned char> faces) {
+    return static_cast<Count>(std::ranges::count(faces, 0)) * n * n;
+  };
+  refined.triangle_begin = static_cast<Index>(triangles(holes.first(mesh.face_begin)));
+  refined.triangle_end = static_cast<Index>(refined.triangle_begin + triangles(own_holes));
+  refined.indices.resize(3 * Count{refined.triangle_end - refined.triangle_begin});
+  if (auto done = write_triangles(*topology, level, own_holes, refined.indices.data(), threads, budget);
+      !done)
+    return std::move(done).error();
+  const auto sources = [&](const Net& net) {
+    return sources_of(*topology, net.topology(), mesh.face_begin, level, own_holes, refined.vertex_count);
+  };
+  refined.source_vertices = sources(plan.mesh());
+  for (std::size_t k = 0; k < plan.channel_count(); ++k) {
+    if (auto stop = budget.poll()) return *stop;
+    refined.source_values.push_back(sources(plan.channel(k)));
+  }
   return refined;
 }
 
-Count count_render_vertices(const RenderMesh& mesh, Index level) {
-  const Topology topology(mesh.vertex_count, mesh.indices);
-  return refined_counts(topology.vertex_count(), topology.edge_count(), topology.face_count(), level)
+Result<Count> count_render_vertices(const RenderMesh& mesh, Index level, const Budget& budget) {
+  const auto topology = Topology::build(mesh.vertex_count, mesh.indices, budget);
+  if (!topology) return topology.error();
+  return refined_counts(topology->vertex_count(), topology->edge_count(), topology->face_count(), level)
       .vertices;
 }
 

@@ -21,8 +21,8 @@ Result<RefineRequest> read(std::string_view body, Format format, const Options& 
                            const Limits& limits);
 
 // For a checked JSON request that will be answered in glTF, before it is predicted and refined: gives meshes
-// with face-varying primvars the render mesh that says where their vertices split. Without it predicted_bytes
-// is an upper bound only and write() splits the refined mesh, which is slower.
+// with face-varying primvars the render mesh that says where their vertices split. Without one write() leaves
+// those primvars out.
 void add_render_meshes(RefineRequest& request);
 
 // Exact size of the BIN chunk (no holes, boundary not "none"; otherwise an upper bound) plus an upper bound

@@ -16,7 +16,7 @@ constexpr Index kMaxShortVertices = 65535;
 // Printed raw where the text of the buffer goes; escaped everywhere else, so it is found without fail.
 constexpr char kUriMark = '\x01';
 
-Json bounds_of(const std::vector<float>& values, Index components) {
+Json bounds_of(std::span<const float> values, Index components) {
   std::vector<float> low(values.begin(), values.begin() + components), high = low;
   for (std::size_t i = 0; i < values.size(); i += components)
     for (Index k = 0; k < components; ++k) {
@@ -80,7 +80,7 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
   return static_cast<Index>(accessors.size() - 1);
 }
 
-Index Output::add_floats(std::vector<float> values, Index components, bool with_bounds) {
+Index Output::add_floats(Buffer<float> values, Index components, bool with_bounds) {
   static constexpr std::array<std::string_view, 5> kTypes{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
   Json bounds = with_bounds ? bounds_of(values, components) : Json();
   const Count count = values.size() / components;
@@ -88,11 +88,11 @@ Index Output::add_floats(std::vector<float> values, Index components, bool with_
                       std::move(bounds));
 }
 
-Index Output::add_indices(std::vector<Index> values, Index vertex_count) {
+Index Output::add_indices(Buffer<Index> values, Index vertex_count) {
   const Count count = values.size();
   if (vertex_count > kMaxShortVertices)
     return add_accessor(Chunk::own(std::move(values)), count, kUnsignedInt, "SCALAR", Target::indices, {});
-  std::vector<std::uint16_t> narrow(values.size());
+  Buffer<std::uint16_t> narrow(values.size());
   std::transform(values.begin(), values.end(), narrow.begin(),
                  [](Index index) { return static_cast<std::uint16_t>(index); });
   return add_accessor(Chunk::own(std::move(narrow)), count, kUnsignedShort, "SCALAR", Target::indices, {});

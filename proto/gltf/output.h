@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/buffer.h"
 #include "core/base/result.h"
 #include "proto/gltf/source.h"
 #include "proto/wire.h"
@@ -23,9 +24,9 @@ class Output {
   Json& primitive(Index mesh, Index primitive);
   // Both append one bufferView and one accessor and return the accessor's number.
   // values: `components` per element; 1 SCALAR, 2..4 VECn.
-  Index add_floats(std::vector<float> values, Index components, bool with_bounds);
+  Index add_floats(Buffer<float> values, Index components, bool with_bounds);
   // Of 16 bits where `vertex_count` allows it.
-  Index add_indices(std::vector<Index> values, Index vertex_count);
+  Index add_indices(Buffer<Index> values, Index vertex_count);
 
   Json& asset() { return *document_.find("asset"); }
   Result<Payload> finish(Format format, const std::vector<Source::Foreign>& foreign) &&;

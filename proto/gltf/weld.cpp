@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/buffer.h"
+
 namespace subdivd::proto::gltf {
 namespace {
 
@@ -58,7 +60,8 @@ std::optional<Welded> weld_by_hashing(const R& rows, Count count) {
   const int shift = 64 - slot_bits;
   const Count mask = (Count{1} << slot_bits) - 1;
   const Index tag_mask = ~((Index{1} << std::bit_width(count)) - 1);
-  std::vector<Index> slots(mask + 1);
+  Buffer<Index> slots(mask + 1,
+                      0);  // looked into everywhere at once: small pages would cost a walk for each look
   Welded weld;
   weld.id.resize(count);
   weld.first.resize(count);

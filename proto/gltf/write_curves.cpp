@@ -36,8 +36,8 @@ std::vector<Run<Real>> runs_of(const CurvesSlot& slot, const std::vector<Refined
 
 // `components` scalars of every point from `offset` on; zeros beyond the width of its curve.
 template <class Real>
-std::vector<float> gather(const std::vector<Run<Real>>& runs, Index offset, Index components, bool color) {
-  std::vector<float> out;
+Buffer<float> gather(const std::vector<Run<Real>>& runs, Index offset, Index components, bool color) {
+  Buffer<float> out;
   for (const Run<Real>& run : runs)
     for (Count point = 0; point < run.count; ++point)
       for (Index k = 0; k < components; ++k) {
@@ -48,8 +48,8 @@ std::vector<float> gather(const std::vector<Run<Real>>& runs, Index offset, Inde
 }
 
 template <class Real>
-std::vector<Index> segments_of(const std::vector<Run<Real>>& runs) {
-  std::vector<Index> ends;
+Buffer<Index> segments_of(const std::vector<Run<Real>>& runs) {
+  Buffer<Index> ends;
   Index begin = 0;
   for (const Run<Real>& run : runs) {
     for (Index i = 0; i + 1 < run.count; ++i) ends.insert(ends.end(), {begin + i, begin + i + 1});
@@ -69,7 +69,7 @@ Result<void> write_curves(const CurvesSlot& slot, const std::vector<RefinedCurve
   Json attributes = std::move(*primitive.find("attributes"));
   const auto add = [&](const AttributeSlot& attribute, bool bounds) -> Result<void> {
     const bool color = semantic_of(attribute.name) == Semantic::color;
-    std::vector<float> values = gather(runs, attribute.offset, attribute.components, color);
+    Buffer<float> values = gather(runs, attribute.offset, attribute.components, color);
     if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
       return Error{ErrorCode::not_finite,
                    attribute.name + " of a curve holds values too large for the single precision of glTF",

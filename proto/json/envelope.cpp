@@ -95,7 +95,7 @@ template <class Real>
 void add_outputs(Json& json, const RefineAnswer<Real>& answer) {
   for (std::size_t i = 0; i < answer.meshes.size() && i < json["meshes"].size(); ++i)
     json["meshes"][i]["output"] = {{"points", answer.meshes[i].points.size() / 3},
-                                   {"triangles", answer.meshes[i].triangles.size() / 3}};
+                                   {"triangles", answer.meshes[i].triangle_count}};
   for (std::size_t i = 0; i < answer.curves.size() && i < json["curves"].size(); ++i)
     json["curves"][i]["output"] = {{"points", answer.curves[i].points.size() / answer.curves[i].width}};
 }

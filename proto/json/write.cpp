@@ -106,10 +106,11 @@ class AnswerWriter {
 
   // The option limit puts the limits in the place of the refined values. Takes them out of the answer, so
   // that they are freed once written.
-  std::vector<Real> chosen(std::vector<Real>& values, std::vector<Real>& limits) {
+  template <class Array>
+  Array chosen(Array& values, Array& limits) {
     const bool limit = request_.options.limit && !limits.empty();
-    std::vector<Real> taken = std::exchange(limit ? limits : values, {});
-    std::vector<Real>().swap(limit ? values : limits);
+    Array taken = std::exchange(limit ? limits : values, {});
+    Array().swap(limit ? values : limits);
     return taken;
   }
 
@@ -119,11 +120,11 @@ class AnswerWriter {
     text_.string(value);
   }
 
-  void array(const std::vector<Real>& values, const char* name, std::size_t width, ArrayForm form,
+  void array(std::span<const Real> values, const char* name, std::size_t width, ArrayForm form,
              std::size_t number, const char* of = "meshes") {
     if (error_) return;
     text_.key(name);
-    const std::size_t place = text_.tuples(std::span<const Real>(values), width, form);
+    const std::size_t place = text_.tuples(values, width, form);
     if (place == TextWriter::kAllFinite) return;
     error_ = Error{ErrorCode::not_finite,
                    std::string("number ") + std::to_string(place) + " of the refined " + name +

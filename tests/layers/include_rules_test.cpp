@@ -27,7 +27,7 @@ class IncludeRules : public ::testing::Test {
     root_ = fs::path(SUBDIVD_BINARY_DIR) / "planted_includes" / test->name();
     fs::remove_all(root_);
     for (const char* header :
-         {"core/base/result.h", "core/mesh/topology.h", "core/refine/plain.h", "core/limit/limit.h",
+         {"core/base/result.h", "core/mesh/topology.h", "core/refine/split.h", "core/limit/limit.h",
           "core/curves/bspline.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
           "server/config.h", "server/transport/transport.h"})
       write(header, "#pragma once");
@@ -69,8 +69,8 @@ TEST_F(IncludeRules, rejects_core_including_proto) {
 }
 
 TEST_F(IncludeRules, rejects_mesh_including_refine) {
-  EXPECT_THAT(planted("core/mesh/a.h", "#include \"core/refine/plain.h\""),
-              one_at("core/mesh/a.h", "core/refine/plain.h"));
+  EXPECT_THAT(planted("core/mesh/a.h", "#include \"core/refine/split.h\""),
+              one_at("core/mesh/a.h", "core/refine/split.h"));
 }
 
 TEST_F(IncludeRules, rejects_curves_including_mesh) {

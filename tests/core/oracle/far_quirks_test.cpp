@@ -10,7 +10,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector at(const std::vector<double>& values, std::size_t v) {
+Vector at(std::span<const double> values, std::size_t v) {
   return {values[3 * v], values[3 * v + 1], values[3 * v + 2]};
 }
 

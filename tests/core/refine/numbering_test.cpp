@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "core/refine/plain.h"
 #include "core/refine/refine.h"
+#include "tests/reference/plain.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {

@@ -45,8 +45,7 @@ TEST(RenderMesh, copies_positions_so_that_seams_cannot_crack) {
   ASSERT_EQ(render.indices.size(), refined->triangles.size());
   // Every corner of the render mesh copies the refined vertex that stands at that corner.
   for (std::size_t k = 0; k < render.indices.size(); ++k) {
-    const Index source = render.source_corner[render.indices[k]];
-    ASSERT_EQ(refined->triangles[source], refined->triangles[k]);
+    ASSERT_EQ(render.source_vertices[render.indices[k]], refined->triangles[k]);
   }
   // The seam's refined points exist twice: its render vertices, and 3 points inside each edge between them.
   const Count seam = mesh.point_count() / 6;
@@ -68,11 +67,8 @@ TEST(RenderMesh, parts_take_their_own_ranges_of_triangles) {
   EXPECT_EQ(refined->render_meshes[1].triangle_begin, 16u);
   EXPECT_EQ(refined->render_meshes[1].triangle_end, 40u);
   for (const RefinedRenderMesh& render : refined->render_meshes)
-    for (Index v = 0; v < render.vertex_count; ++v)
-      if (render.source_corner[v] != kNoIndex) {
-        EXPECT_GE(render.source_corner[v], 3 * render.triangle_begin);
-        EXPECT_LT(render.source_corner[v], 3 * render.triangle_end);
-      }
+    for (Count k = 0; k < render.indices.size(); ++k)
+      EXPECT_EQ(render.source_vertices[render.indices[k]], refined->triangles[3 * render.triangle_begin + k]);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(RefineProperties, refined_points_approach_the_limit) {
 
 TEST(RefineProperties, affine_maps_commute_with_refinement) {
   const double a[3][4] = {{0.9, -0.4, 0.2, 3}, {0.3, 1.1, -0.5, -2}, {-0.1, 0.6, 0.8, 5}};
-  auto mapped = [&](const std::vector<double>& points) {
+  auto mapped = [&](std::span<const double> points) {
     std::vector<double> out(points.size());
     for (std::size_t v = 0; v < points.size(); v += 3)
       for (std::size_t r = 0; r < 3; ++r)
@@ -162,8 +162,8 @@ TEST(RefineProperties, two_single_steps_are_one_double_step) {
     if (name == "closed_pillow_valence_2") continue;
     const auto once = refined(mesh, 1), twice = refined(mesh, 2);
     ControlMesh between;
-    between.points = once.points;
-    between.face_vertex_indices = once.triangles;
+    between.points.assign(once.points.begin(), once.points.end());
+    between.face_vertex_indices.assign(once.triangles.begin(), once.triangles.end());
     const auto again = refined(between, 1);
     ASSERT_EQ(again.points.size(), twice.points.size());
     // Numbers differ; the triangles are the same triangles.
@@ -248,7 +248,11 @@ TEST(RefineProperties, normals_are_those_of_the_limit_surface) {
       if (at1.provenance[v].face == kNoIndex) continue;  // an unreferenced point has no surface
       double dot = 0;
       for (std::size_t c = 0; c < 3; ++c) dot += at1.normals[3 * v + c] * at3.normals[3 * v + c];
-      ASSERT_GT(dot, 1 - 1e-12) << "vertex " << v;
+      // Two triangles over the same three points are flat, and out is on both sides: no normal, at any level.
+      if (name == "closed_pillow_valence_2")
+        ASSERT_EQ(dot, 0) << "vertex " << v;
+      else
+        ASSERT_GT(dot, 1 - 1e-12) << "vertex " << v;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "proto/decode.h"
 #include "tests/proto/gltf/pipeline.h"
 #include "tests/support/gltf_builder.h"
 
@@ -411,13 +412,21 @@ TEST(Fresh, splits_vertices_where_face_varying_values_differ) {
   EXPECT_EQ(read_accessor<float>(glb, primitive_of(glb)["attributes"]["POSITION"], 3).size(), 3 * 5u);
 }
 
-TEST(Fresh, splits_the_refined_mesh_when_there_is_no_render_mesh) {
+TEST(Fresh, splits_vertices_at_seams_beforehand) {
   proto::RefineRequest prepared = json_request();
   proto::gltf::add_render_meshes(prepared);
-  const Outcome a = *answer(json_request()), b = *answer(std::move(prepared));
-  EXPECT_EQ(parse_glb(a.bytes).bin.size(), parse_glb(b.bytes).bin.size());
-  EXPECT_GE(a.predicted, a.bytes.size());
-  EXPECT_GE(b.predicted, b.bytes.size());
+  ASSERT_FALSE(prepared.meshes[0].render_meshes.empty());
+  const Outcome outcome = *answer(std::move(prepared));
+  EXPECT_GE(outcome.predicted, outcome.bytes.size());
+}
+
+TEST(Fresh, a_json_request_for_a_glb_is_given_render_meshes) {
+  const std::string body =
+      R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2],"options":{"format":"glb"},)"
+      R"("primvars":{"st":{"interpolation":"faceVarying","elementSize":2,"values":[0,0,1,0,0,1]}}})";
+  const auto request = proto::decode_refine(body, proto::BodyKind::json, {}, {});
+  ASSERT_TRUE(request.ok()) << request.error().message;
+  EXPECT_EQ(request->meshes[0].render_meshes.size(), 1u);
 }
 
 TEST(Fresh, refuses_what_single_precision_cannot_hold) {

@@ -1,4 +1,4 @@
-#include "core/refine/plain.h"
+#include "tests/reference/plain.h"
 
 #include <algorithm>
 #include <array>
@@ -29,10 +29,11 @@ std::vector<std::array<float, 2>> decayed_halves(const Level& level, CreaseMetho
 // k, lies edge 2 E + 3 f + k.
 Topology child_topology(const Topology& parent) {
   const Index vertices = parent.vertex_count(), inside = 2 * parent.edge_count();
-  std::vector<Index> triangles, half_edge_edges;
+  std::vector<Index> triangles;
+  Buffer<Index> half_edge_edges;
   triangles.reserve(parent.triangles().size() * 4);
   half_edge_edges.reserve(parent.triangles().size() * 4);
-  std::vector<std::array<Index, 2>> edge_vertices(inside + parent.triangles().size());
+  Buffer<std::array<Index, 2>> edge_vertices(inside + parent.triangles().size());
   for (Index e = 0; e < parent.edge_count(); ++e)
     for (Index end : {0, 1}) edge_vertices[2 * e + end] = {parent.edge_vertices(e)[end], vertices + e};
   for (Index f = 0; f < parent.face_count(); ++f) {

@@ -1,0 +1,63 @@
+#pragma once
+// Big arrays that are overwritten as soon as they exist: not filled with zeros first, and on huge pages,
+// which make the first writes 4 to 9 times faster (a 4 KiB page costs about 2 us to be given out).
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace subdivd {
+
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+// Allocates as std::allocator does, but aligns blocks of at least one huge page and asks the kernel for huge
+// pages there; leaves elements of trivial types unset where a container would zero them.
+template <class T>
+struct UnsetAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+  UnsetAllocator() = default;
+  template <class U>
+  UnsetAllocator(const UnsetAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < kHugePage) return std::allocator<T>::allocate(count);
+    void* block = ::operator new (bytes, std::align_val_t{kHugePage});
+#ifdef __linux__
+    // Advice only: without huge pages the block is as good, and slower.
+    (void)::madvise(block, bytes, MADV_HUGEPAGE);
+#endif
+    return static_cast<T*>(block);
+  }
+  void deallocate(T* block, std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < kHugePage)
+      std::allocator<T>::deallocate(block, count);
+    else
+      ::operator delete (block, bytes, std::align_val_t{kHugePage});
+  }
+
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* at, Args&&... args) {
+    ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+  }
+};
+
+// A vector whose new elements hold whatever the memory held, until written.
+template <class T>
+using Buffer = std::vector<T, UnsetAllocator<T>>;
+
+}  // namespace subdivd

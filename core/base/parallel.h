@@ -1,0 +1,123 @@
+#pragma once
+// A fixed partition of work over threads: which worker does what depends on the numbers alone, so the answer
+// can be the same bytes for any number of them.
+
+#include <atomic>
+#include <barrier>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/base/budget.h"
+#include "core/base/index.h"
+#include "core/base/result.h"
+
+namespace subdivd {
+
+// [begin, end)
+struct Range {
+  Count begin = 0, end = 0;
+};
+
+class Team;
+
+// What one of the threads of a team sees.
+class Worker {
+ public:
+  Worker(Team& team, Index index, Index count) : team_(&team), index_(index), count_(count) {}
+
+  Index index() const { return index_; }
+  Index count() const { return count_; }
+  // This worker's part of 0..total-1.
+  Range share(Count total) const {
+    return {total / count_ * index_ + total % count_ * index_ / count_,
+            total / count_ * (index_ + 1) + total % count_ * (index_ + 1) / count_};
+  }
+  // False when the team is to stop. Call after `steps` more elementary steps (points, faces: some 10 ns
+  // each); every few thousand of them the budget is polled.
+  bool go_on(Count steps);
+  // Returns when every worker has come here: what they wrote before, all may read. False when the team is to
+  // stop; every worker then gets false.
+  bool meet();
+
+ private:
+  static constexpr Count kStepsPerPoll = 1 << 15;
+  Team* team_;
+  Index index_, count_;
+  Count steps_ = 0;
+};
+
+class Team {
+ public:
+  // Calls work(worker) once on each of `threads` threads (at least 1; fewer when the system has no more to
+  // give) and waits for all. `work` returns early when go_on or meet says false; the reason is returned here.
+  template <class Work>
+  static Result<void> run(Index threads, const Budget& budget, Work&& work) {
+    Team team(budget);
+    team.start(threads, [&](Worker worker) { work(worker); });
+    if (team.error_) return std::move(*team.error_);
+    return {};
+  }
+
+ private:
+  friend class Worker;
+  explicit Team(const Budget& budget) : budget_(budget) {}
+
+  template <class Work>
+  void start(Index threads, Work&& work) {
+    std::vector<std::thread> others;
+    std::atomic<Index> count{0};
+    try {
+      for (Index k = 1; k < threads; ++k)
+        others.emplace_back([&, k] {
+          count.wait(0);
+          work(Worker(*this, k, count));
+        });
+    } catch (const std::system_error&) {
+      // The threads that there are do the work of all.
+    }
+    const auto all = static_cast<Index>(others.size() + 1);
+    barrier_.emplace(all);
+    count = all;
+    count.notify_all();
+    work(Worker(*this, 0, all));
+    for (std::thread& other : others) other.join();
+  }
+
+  void poll() {
+    if (auto stop = budget_.poll()) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::move(stop);
+      stopped_.store(true, std::memory_order_relaxed);
+    }
+  }
+
+  const Budget& budget_;
+  std::optional<std::barrier<>> barrier_;
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  std::optional<Error> error_;
+};
+
+inline bool Worker::go_on(Count steps) {
+  steps_ += steps;
+  if (steps_ >= kStepsPerPoll) {
+    steps_ = 0;
+    team_->poll();
+  }
+  return !team_->stopped_.load(std::memory_order_relaxed);
+}
+
+inline bool Worker::meet() {
+  // A worker that stopped comes here too: all leave together, or the others would wait for ever. Whether to
+  // stop is read between two barriers, when nobody can change it.
+  team_->barrier_->arrive_and_wait();
+  const bool stopped = team_->stopped_.load(std::memory_order_relaxed);
+  team_->barrier_->arrive_and_wait();
+  return !stopped;
+}
+
+}  // namespace subdivd

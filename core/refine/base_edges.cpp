@@ -1,0 +1,181 @@
+#include "core/refine/base_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/refine/base_vertices.h"
+#include "core/refine/numbering.h"
+
+namespace subdivd {
+namespace {
+
+// The half-edge along a smooth or semi-sharp edge that runs from its lower end, and the other.
+std::array<Index, 2> sides_of(const Topology& topology, Index e) {
+  const auto sides = topology.edge_half_edges(e);
+  const bool forward = topology.corner_vertex(sides[0]) == topology.edge_vertices(e)[0];
+  return {sides[forward ? 0 : 1], sides[forward ? 1 : 0]};
+}
+
+// The six neighbours of point k inside edge e, counter-clockwise from the next point along the edge.
+std::array<Index, 6> neighbours(const Numbering& numbering, const std::array<Index, 2>& sides, Index e,
+                                Count k) {
+  const Count n = numbering.segment_count();
+  return {numbering.along(e, k + 1),         numbering.beside(sides[0], k),
+          numbering.beside(sides[0], k - 1), numbering.along(e, k - 1),
+          numbering.beside(sides[1], n - k), numbering.beside(sides[1], n - 1 - k)};
+}
+
+}  // namespace
+
+template <class Scheme, class Real>
+void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, const Real* from,
+                                           Real* to) const {
+  const SemiSharp &parent = net_.semi_sharp(level), &next = net_.semi_sharp(level + 1);
+  const Index e = parent.edges[position];
+  const auto found = std::ranges::lower_bound(next.edges, e);
+  const bool goes_on = found != next.edges.end() && *found == e;
+  const auto child = [&](Count k) {
+    return goes_on ? next.segment(static_cast<std::size_t>(found - next.edges.begin()), k) : 0.0f;
+  };
+  const Numbering numbering(net_.topology(), level);
+  const Count n = segments(level);
+  const auto sides = sides_of(net_.topology(), e);
+  const auto at = [&](Count point) { return from + point * width_; };
+  Real* out = to + (net_.topology().vertex_count() + e * (2 * n - 1)) * width_;
+  for (Count k = 0; k < n; ++k) {
+    if (k > 0) {
+      const std::array<float, 6> sharp{parent.segment(position, k),     0, 0,
+                                       parent.segment(position, k - 1), 0, 0};
+      const std::array<float, 6> sharp_next{child(2 * k), 0, 0, child(2 * k - 1), 0, 0};
+      const VertexMask mask = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, sharp, sharp_next});
+      const auto around = neighbours(numbering, sides, e, k);
+      const Real* here = at(numbering.along(e, k));
+      for (Index c = 0; c < width_; ++c) {
+        Real sum = static_cast<Real>(mask.self) * here[c];
+        for (const Index point : around) sum += static_cast<Real>(mask.each) * at(point)[c];
+        for (const Index end : mask.crease_ends) sum += static_cast<Real>(mask.crease) * at(around[end])[c];
+        *out++ = sum;
+      }
+    }
+    const EdgeMask mask =
+        scheme_.edge_mask({2, parent.segment(position, k), {child(2 * k), child(2 * k + 1)}});
+    const Real *a = at(numbering.along(e, k)), *b = at(numbering.along(e, k + 1));
+    const Real *c0 = at(numbering.beside(sides[0], k)), *c1 = at(numbering.beside(sides[1], n - 1 - k));
+    for (Index c = 0; c < width_; ++c)
+      *out++ =
+          static_cast<Real>(mask.end) * (a[c] + b[c]) + static_cast<Real>(mask.opposite) * (c0[c] + c1[c]);
+  }
+}
+
+template <class Scheme, class Real>
+void BaseEdges<Scheme, Real>::refine_semi_sharp(Index level, const Real* from, Real* to, Index begin,
+                                                Index end) const {
+  const auto& edges = net_.semi_sharp(level).edges;
+  for (auto at = std::ranges::lower_bound(edges, begin); at != edges.end() && *at < end; ++at)
+    refine_strip(level, static_cast<std::size_t>(at - edges.begin()), from, to);
+}
+
+// Every face along the crease is one side of the surface: a regular border of three faces at each point.
+template <class Scheme, class Real>
+void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, const Evaluated<Real>& out,
+                                           Index e) const {
+  const Numbering numbering(net_.topology(), level);
+  const Count n = segments(level);
+  const VertexMask mask = scheme_.crease_limit_mask(0, 1);
+  const RingMask across = scheme_.crease_tangent_across(3);
+  const auto half_edges = net_.topology().edge_half_edges(e);
+  const Index low = net_.topology().edge_vertices(e)[0];
+  std::vector<Frame<Real>> frames(half_edges.size());
+  for (Count k = 1; k < n; ++k) {
+    const Index point = numbering.along(e, k), ahead = numbering.along(e, k + 1),
+                behind = numbering.along(e, k - 1);
+    const auto at = [&](Count p) { return values + p * width_; };
+    if (out.limits != nullptr)
+      for (Index c = 0; c < width_; ++c)
+        out.limits[Count{point} * width_ + c] =
+            static_cast<Real>(mask.self) * at(point)[c] +
+            static_cast<Real>(mask.crease) * (at(ahead)[c] + at(behind)[c]);
+    if (!out.wants_frames()) continue;
+    for (std::size_t s = 0; s < half_edges.size(); ++s) {
+      const Index h = half_edges[s];
+      const bool forward = net_.topology().corner_vertex(h) == low;
+      const Count p = forward ? k : n - k;  // from the half-edge's own start
+      const Real* ring[4] = {at(forward ? ahead : behind), at(numbering.beside(h, p)),
+                             at(numbering.beside(h, p - 1)), at(forward ? behind : ahead)};
+      Frame<Real>& frame = frames[s];
+      for (int c = 0; c < 3; ++c) {
+        frame.u[c] = ring[0][c] - ring[3][c];
+        frame.v[c] = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+          frame.v[c] += static_cast<Real>(across.edges[i]) * (ring[i][c] - at(point)[c]);
+      }
+      if (set_normal(frame)) continue;
+      Ring<Real> whole{3,
+                       {at(point), at(point) + 3},
+                       {},
+                       0,
+                       {kInfiniteSharpness, 0, 0, kInfiniteSharpness},
+                       {},
+                       {},
+                       {},
+                       {{0, 1}, {1, 2}, {2, 3}},
+                       {{{0, 1, 2, 3}, false}}};
+      for (const Real* neighbour : ring)
+        whole.neighbors.insert(whole.neighbors.end(), neighbour, neighbour + 3);
+      frame = LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0];
+    }
+    write_frames<Real>(frames, out, point);
+  }
+}
+
+template <class Scheme, class Real>
+void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position, const Real* values,
+                                               const Evaluated<Real>& out) const {
+  const SemiSharp& semi = net_.semi_sharp(level);
+  const Index e = semi.edges[position];
+  const Numbering numbering(net_.topology(), level);
+  const auto sides = sides_of(net_.topology(), e);
+  for (Count k = 1; k < segments(level); ++k) {
+    const Index point = numbering.along(e, k);
+    Ring<Real> ring;
+    ring.width = width_;
+    const auto append = [&](std::vector<Real>& to, Count p) {
+      to.insert(to.end(), values + p * width_, values + (p + 1) * width_);
+    };
+    append(ring.center, point);
+    for (const Index p : neighbours(numbering, sides, e, k)) append(ring.neighbors, p);
+    ring.edge_sharpness =
+        ring.around = {semi.segment(position, k), 0, 0, semi.segment(position, k - 1), 0, 0};
+    ring.in_mesh = {0, 1, 2, 3, 4, 5};
+    ring.far_child = {net_.segment_sharpness(level + 1, e, 2 * k + 1), 0, 0,
+                      net_.segment_sharpness(level + 1, e, 2 * k - 2), 0, 0};
+    ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
+    ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
+    const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), std::move(ring));
+    if (out.limits != nullptr) std::ranges::copy(limit.position(), out.limits + Count{point} * width_);
+    if (out.wants_frames()) write_frames<Real>(limit.frames(), out, point);
+  }
+}
+
+template <class Scheme, class Real>
+void BaseEdges<Scheme, Real>::limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin,
+                                    Index end) const {
+  const Count n = segments(level);
+  if (n < 2) return;
+  for (Index e = begin; e < end; ++e) {
+    if (net_.edge_rules()[e] == EdgeRule::crease) limit_crease(level, values, out, e);
+    if (net_.edge_rules()[e] == EdgeRule::linear && out.limits != nullptr) {
+      const Count first = (net_.topology().vertex_count() + e * (n - 1)) * width_;
+      std::copy_n(values + first, (n - 1) * width_, out.limits + first);
+    }
+  }
+  const auto& edges = net_.semi_sharp(level).edges;
+  for (auto at = std::ranges::lower_bound(edges, begin); at != edges.end() && *at < end; ++at)
+    limit_semi_sharp(level, static_cast<std::size_t>(at - edges.begin()), values, out);
+}
+
+template class BaseEdges<Loop, float>;
+template class BaseEdges<Loop, double>;
+
+}  // namespace subdivd

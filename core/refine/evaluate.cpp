@@ -1,0 +1,309 @@
+#include "core/refine/evaluate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "core/base/buffer.h"
+#include "core/base/parallel.h"
+#include "core/refine/base_edges.h"
+#include "core/refine/base_vertices.h"
+#include "core/refine/kernels/tri_step.h"
+
+namespace subdivd {
+namespace {
+
+using kernels::FaceRow;
+using kernels::TriKernels;
+using kernels::TriLimit;
+using kernels::TriMasks;
+using kernels::TriStep;
+
+constexpr Count kBlock = 1 << 14;      // points between two polls of the budget, about
+constexpr Count kLargeFace = 1 << 18;  // points inside a face that is taken in several pieces
+
+static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
+              "the kernels know the rules by number");
+
+// The frame of a regular point whose tangents are too close to parallel, too long or too short for the short
+// way.
+template <class Scheme, class Real>
+void robust_frame(const Real (*points)[3], Real* u, Real* v, Real* normal) {
+  Ring<Real> ring;
+  ring.center.assign(points[0], points[0] + 3);
+  for (int k = 1; k < 7; ++k) ring.neighbors.insert(ring.neighbors.end(), points[k], points[k] + 3);
+  ring.edge_sharpness.assign(6, 0.0f);
+  ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
+  ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
+  const Frame<Real> frame =
+      LimitRing<Scheme, Real>(Scheme{}, CreaseMethod::uniform, std::move(ring)).frames()[0];
+  std::copy_n(frame.u, 3, u);
+  std::copy_n(frame.v, 3, v);
+  std::copy_n(frame.normal, 3, normal);
+}
+
+// Cuts 0..face_count * n^2 triangles into rows of faces. Any monotone rule will do: what is written does not
+// depend on the cuts.
+FaceRow face_row(Count triangle, Count n, bool whole_faces) {
+  FaceRow at{static_cast<Index>(triangle / (n * n)), 0};
+  const Count rest = triangle % (n * n);
+  if (!whole_faces) at.row = n - static_cast<Count>(std::sqrt(static_cast<double>(n * n - rest)));
+  return at;
+}
+
+template <class Scheme, class Real>
+class Evaluation {
+ public:
+  Evaluation(const Net& net, const Scheme& scheme, Index level, std::span<const Real> control, Index width,
+             Smoothing smoothing, const Evaluated<Real>& out)
+      : net_(net),
+        scheme_(scheme),
+        level_(level),
+        control_(control),
+        width_(width),
+        linear_(smoothing == Smoothing::linear),
+        out_(out),
+        kernels_(kernels::tri_kernels<Real>()),
+        vertices_(net, scheme, width, linear_ ? Smoothing::linear : net.smoothing()),
+        edges_(net, scheme, width) {
+    linear_ |= net.smoothing() == Smoothing::linear;
+    if (linear_)
+      linear_rules_.assign(net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
+    if (out.wants_limits()) vertices_.prepare_limits(out.wants_frames());
+    // Two levels below the last take turns; the last goes straight to the caller.
+    for (Index k = 0; k < 2; ++k)
+      if (level > k + 1) scratch_[k].resize(net.value_count(level - 1 - k) * width);
+    if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
+  }
+
+  Result<void> run(Index threads, const Budget& budget) {
+    deferred_.resize(threads);
+    if (level_ == 0 && out_.values != nullptr) std::ranges::copy(control_, out_.values);
+    return Team::run(threads, budget, [&](Worker& worker) { work(worker); });
+  }
+
+ private:
+  // The array of a level.
+  const Real* values_at(Index level) const {
+    return level == 0 ? control_.data() : const_cast<Evaluation*>(this)->target_at(level);
+  }
+  Real* target_at(Index level) {
+    if (level == level_) return out_.values != nullptr ? out_.values : own_values_.data();
+    return scratch_[(level_ - 1 - level) % 2].data();
+  }
+
+  TriMasks<Real> masks() const {
+    if (linear_) return {1, 0, Real(0.5), 0, 1, 0, Real(0.5)};
+    const std::array<float, 2> sharp{kInfiniteSharpness, kInfiniteSharpness};
+    const VertexMask smooth = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, {}, {}});
+    const VertexMask crease = scheme_.vertex_mask({1, net_.crease_method(), 0, 0, sharp, sharp});
+    const EdgeMask edge = scheme_.edge_mask({2, 0, {0, 0}});
+    const EdgeMask sharp_edge =
+        scheme_.edge_mask({2, kInfiniteSharpness, {kInfiniteSharpness, kInfiniteSharpness}});
+    return {static_cast<Real>(smooth.self),   static_cast<Real>(smooth.each),
+            static_cast<Real>(edge.end),      static_cast<Real>(edge.opposite),
+            static_cast<Real>(crease.self),   static_cast<Real>(crease.crease),
+            static_cast<Real>(sharp_edge.end)};
+  }
+
+  TriStep<Real> step_from(Index level, const Real* from, Real* to, Real* rows) const {
+    const Topology& topology = net_.topology();
+    const auto* rules =
+        linear_ ? linear_rules_.data() : reinterpret_cast<const unsigned char*>(net_.edge_rules().data());
+    const auto pairs = [](std::span<const std::array<Index, 2>> all) {
+      return all.empty() ? nullptr : all[0].data();
+    };
+    return {topology.triangles().data(),
+            topology.half_edge_edges().data(),
+            pairs(topology.edge_vertices()),
+            pairs(topology.edge_sides()),
+            rules,
+            topology.vertex_count(),
+            topology.edge_count(),
+            segments(level),
+            width_,
+            from,
+            to,
+            masks(),
+            rows};
+  }
+
+  // Calls f(kernel index, first component) for the pieces of at most four components.
+  template <class F>
+  void for_components(F&& f) const {
+    for (Index c = 0; c < width_; c += 4) f(std::min<Index>(width_ - c, 4) - 1, c);
+  }
+
+  void work(Worker& worker) {
+    std::vector<Real> rows(kernels::row_scratch(segments(level_)), Real(0));
+    for (Index level = 0; level < level_; ++level) {
+      const TriStep<Real> step = step_from(level, values_at(level), target_at(level + 1), rows.data());
+      refine_vertices(worker, level, step);
+      refine_edges(worker, level, step);
+      const bool last = level + 1 == level_ && out_.wants_limits();
+      // Limits inside a face need its border at the last level.
+      if (last && !worker.meet()) return;
+      refine_faces(worker, step, last ? &rows : nullptr);
+      if (!worker.meet()) return;
+    }
+    if (!out_.wants_limits()) return;
+    for (const auto& [begin, end] : deferred_[worker.index()]) limit_faces(begin, end, rows);
+    limit_vertices(worker);
+    limit_edges(worker, rows);
+  }
+
+  // Calls f(begin, end) for blocks of the worker's share of `total` items of `points` points each.
+  template <class F>
+  static void in_blocks(Worker& worker, Count total, Count points, F&& f) {
+    const Range share = worker.share(total);
+    const Count block = std::max<Count>(1, kBlock / std::max<Count>(points, 1));
+    for (Count begin = share.begin; begin < share.end; begin += block) {
+      const Count end = std::min(begin + block, share.end);
+      if (!worker.go_on((end - begin) * points)) return;
+      f(static_cast<Index>(begin), static_cast<Index>(end));
+    }
+  }
+
+  void refine_vertices(Worker& worker, Index level, const TriStep<Real>& step) const {
+    in_blocks(worker, net_.topology().vertex_count(), 4,
+              [&](Index begin, Index end) { vertices_.refine(level, step.from, step.to, begin, end); });
+  }
+
+  void refine_edges(Worker& worker, Index level, const TriStep<Real>& step) const {
+    in_blocks(worker, net_.topology().edge_count(), 4 * step.n, [&](Index begin, Index end) {
+      for_components([&](Index kernel, Index component) {
+        TriStep<Real> part = step;
+        part.from += component;
+        part.to += component;
+        kernels_.refine_edges[kernel](part, begin, end);
+      });
+      if (!linear_) edges_.refine_semi_sharp(level, step.from, step.to, begin, end);
+    });
+  }
+
+  // `limit_rows`: scratch for limits, which are written as soon as a face is complete; null: none.
+  void refine_faces(Worker& worker, const TriStep<Real>& step, std::vector<Real>* limit_rows) {
+    if (step.n < 2) return;  // a face of two segments an edge has nothing inside
+    const Count n = step.n, faces = net_.topology().face_count(), points = 2 * n * n;
+    const bool whole = points <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
+    const Range share = worker.share(faces * n * n);
+    const FaceRow last = face_row(share.end, n, whole);
+    const Count block = std::max<Count>(whole ? n * n : 1, kBlock);
+    FaceRow begin = face_row(share.begin, n, whole);
+    for (Count at = share.begin; at < share.end; at += block) {
+      const FaceRow end = at + block >= share.end ? last : face_row(at + block, n, whole);
+      if (!worker.go_on(4 * block)) return;
+      for_components([&](Index kernel, Index component) {
+        TriStep<Real> part = step;
+        part.from += component;
+        part.to += component;
+        kernels_.refine_faces[kernel](part, begin, end);
+      });
+      if (limit_rows != nullptr) {
+        if (whole)
+          limit_faces(begin, end, *limit_rows);
+        else
+          deferred_[worker.index()].push_back({begin, end});
+      }
+      begin = end;
+    }
+  }
+
+  TriLimit<Real> limit_of(std::vector<Real>& rows) const {
+    TriLimit<Real> limit{step_from(level_, values_at(level_), out_.limits, rows.data()),
+                         0,
+                         0,
+                         out_.tangents_u,
+                         out_.tangents_v,
+                         out_.normals,
+                         &robust_frame<Scheme, Real>};
+    limit.level.rows = rows.data();
+    if (linear_) {
+      limit.self = 1;
+    } else {
+      const VertexMask mask = scheme_.smooth_limit_mask(6);
+      limit.self = static_cast<Real>(mask.self);
+      limit.each = static_cast<Real>(mask.each);
+    }
+    return limit;
+  }
+
+  template <class F>
+  void limit_components(std::vector<Real>& rows, F&& f) const {
+    const TriLimit<Real> limit = limit_of(rows);
+    for_components([&](Index kernel, Index component) {
+      TriLimit<Real> part = limit;
+      part.level.from += component;
+      if (part.level.to != nullptr) part.level.to += component;
+      f(kernel, part);
+    });
+  }
+
+  // `begin` and `end` count rows of the level below, of which every one makes two here.
+  void limit_faces(FaceRow begin, FaceRow end, std::vector<Real>& rows) const {
+    begin.row *= 2;
+    end.row *= 2;
+    limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+      kernels_.limit_faces[kernel](part, begin, end);
+    });
+  }
+
+  void limit_vertices(Worker& worker) const {
+    in_blocks(worker, net_.topology().vertex_count(), 16,
+              [&](Index begin, Index end) { vertices_.limit(level_, values_at(level_), out_, begin, end); });
+  }
+
+  void limit_edges(Worker& worker, std::vector<Real>& rows) const {
+    if (level_ == 0) return;
+    in_blocks(worker, net_.topology().edge_count(), 8 * segments(level_), [&](Index begin, Index end) {
+      limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+        kernels_.limit_edges[kernel](part, begin, end);
+      });
+      if (!linear_) {
+        edges_.limit(level_, values_at(level_), out_, begin, end);
+      } else if (out_.limits != nullptr) {
+        const Count points = segments(level_) - 1, first = net_.topology().vertex_count() + begin * points;
+        std::copy_n(values_at(level_) + first * width_, (end - begin) * points * width_,
+                    out_.limits + first * width_);
+      }
+    });
+  }
+
+  const Net& net_;
+  Scheme scheme_;
+  Index level_;
+  std::span<const Real> control_;
+  Index width_;
+  bool linear_;
+  Evaluated<Real> out_;
+  const TriKernels<Real>& kernels_;
+  BaseVertices<Scheme, Real> vertices_;
+  BaseEdges<Scheme, Real> edges_;
+  std::vector<unsigned char> linear_rules_;
+  std::array<Buffer<Real>, 2> scratch_;
+  Buffer<Real> own_values_;
+  std::vector<std::vector<std::pair<FaceRow, FaceRow>>> deferred_;  // per worker
+};
+
+}  // namespace
+
+template <class Real>
+Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
+                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
+  return std::visit(
+      [&](const auto& scheme) {
+        using Scheme = std::remove_cvref_t<decltype(scheme)>;
+        return Evaluation<Scheme, Real>(net, scheme, level, control, width, smoothing, out)
+            .run(threads, budget);
+      },
+      net.scheme());
+}
+
+template Result<void> evaluate(const Net&, Index, std::span<const float>, Index, Smoothing,
+                               const Evaluated<float>&, Index, const Budget&);
+template Result<void> evaluate(const Net&, Index, std::span<const double>, Index, Smoothing,
+                               const Evaluated<double>&, Index, const Budget&);
+
+}  // namespace subdivd

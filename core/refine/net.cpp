@@ -1,0 +1,257 @@
+#include "core/refine/net.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace subdivd {
+namespace {
+
+constexpr Index kStepsPerPoll = 1 << 18;
+
+// Position of `item` in an ascending list; its size when it is not there.
+std::size_t position(const std::vector<Index>& list, Index item) {
+  const auto at = std::ranges::lower_bound(list, item);
+  return at != list.end() && *at == item ? static_cast<std::size_t>(at - list.begin()) : list.size();
+}
+
+void sort_unique(std::vector<Index>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+float SemiSharp::vertex(Index v) const {
+  const std::size_t at = position(vertices, v);
+  return at == vertices.size() ? 0.0f : vertex_sharpness[at];
+}
+
+Result<Net> Net::build(const AnyScheme& scheme, CreaseMethod method, Topology topology, Sharpness sharpness,
+                       Index max_level, const Budget& budget) {
+  Net net;
+  net.scheme_ = scheme;
+  net.method_ = method;
+  net.max_level_ = max_level;
+  net.topology_ = std::move(topology);
+  net.sharpness_ = std::move(sharpness);
+  if (auto done = net.set_rules(false, budget); !done) return std::move(done).error();
+  if (auto done = net.decay_all(budget); !done) return std::move(done).error();
+  net.list_unsettled();
+  return net;
+}
+
+Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Budget& budget) {
+  Net net;
+  net.mesh_ = std::move(of_mesh);
+  const Net& mesh = *net.mesh_;
+  net.scheme_ = mesh.scheme_;
+  net.method_ = mesh.method_;
+  net.max_level_ = mesh.max_level_;
+  net.linear_ = channel.linear;
+  net.topology_ = std::move(channel.topology);
+  net.sharpness_ = std::move(channel.sharpness);
+  net.value_indices_ = std::move(channel.values);
+  if (auto done = net.set_rules(channel.linear_borders, budget); !done) return std::move(done).error();
+  if (net.linear_) return net;
+
+  // Edges decay as the mesh's: under Chaikin's rule a seam hides edges that take part. Vertices decay alone.
+  struct Pair {
+    std::size_t in_mesh;
+    bool reversed;
+  };
+  std::vector<Pair> pairs;
+  SemiSharp base;
+  const auto side = [](const Topology& topology, Index h) {
+    return topology.edge_vertices(topology.half_edge_edge(h))[0] == topology.corner_vertex(h);
+  };
+  for (Index e = 0; e < net.topology_.edge_count(); ++e) {
+    if (!is_semi_sharp(net.sharpness_.edges[e])) continue;
+    const Index h = net.topology_.edge_half_edges(e)[0];
+    pairs.push_back({position(mesh.semi_sharp(0).edges, mesh.topology_.half_edge_edge(h)),
+                     side(net.topology_, h) != side(mesh.topology_, h)});
+    base.edges.push_back(e);
+  }
+  for (Index v = 0; v < net.topology_.vertex_count(); ++v)
+    if (is_semi_sharp(net.sharpness_.vertices[v])) {
+      base.vertices.push_back(v);
+      base.vertex_sharpness.push_back(net.sharpness_.vertices[v]);
+    }
+  for (Index level = 0; level <= net.max_level_ + 1; ++level) {
+    const SemiSharp& from = mesh.semi_sharp(level);
+    SemiSharp to;
+    to.per_edge = from.per_edge;
+    for (std::size_t k = 0; k < base.edges.size(); ++k) {
+      const Index mesh_edge = mesh.semi_sharp(0).edges[pairs[k].in_mesh];
+      const std::size_t at = position(from.edges, mesh_edge);
+      if (at == from.edges.size()) continue;  // it has run out
+      to.edges.push_back(base.edges[k]);
+      for (Count s = 0; s < from.per_edge; ++s)
+        to.segments.push_back(from.segment(at, pairs[k].reversed ? from.per_edge - 1 - s : s));
+    }
+    for (std::size_t k = 0; k < base.vertices.size(); ++k)
+      if (is_sharp(base.vertex_sharpness[k])) {
+        to.vertices.push_back(base.vertices[k]);
+        to.vertex_sharpness.push_back(base.vertex_sharpness[k]);
+        base.vertex_sharpness[k] = decay(base.vertex_sharpness[k]);
+      }
+    if (to.empty()) break;
+    net.levels_.push_back(std::move(to));
+    if (auto stop = budget.poll()) return *stop;
+  }
+  net.list_unsettled();
+  return net;
+}
+
+const SemiSharp& Net::semi_sharp(Index level) const {
+  static const SemiSharp none;
+  return level < levels_.size() ? levels_[level] : none;
+}
+
+std::span<const Index> Net::unsettled_vertices(Index level) const {
+  return level < unsettled_.size() ? std::span<const Index>(unsettled_[level]) : std::span<const Index>();
+}
+
+float Net::segment_sharpness(Index level, Index e, Count from_low) const {
+  if (is_infinite(sharpness_.edges[e])) return kInfiniteSharpness;
+  if (!is_sharp(sharpness_.edges[e])) return 0;
+  const SemiSharp& semi = semi_sharp(level);
+  const std::size_t at = position(semi.edges, e);
+  return at == semi.edges.size() ? 0 : semi.segment(at, from_low);
+}
+
+float Net::sharpness_beside(Index level, Index e, Index v) const {
+  return segment_sharpness(level, e, topology_.edge_vertices(e)[0] == v ? 0 : segments(level) - 1);
+}
+
+float Net::sharpness_far(Index level, Index e, Index v) const {
+  return segment_sharpness(level + 1, e, topology_.edge_vertices(e)[0] == v ? 1 : segments(level + 1) - 2);
+}
+
+Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
+  const Index vertices = topology_.vertex_count(), edges = topology_.edge_count();
+  vertex_rules_.resize(vertices);
+  edge_rules_.resize(edges);
+  std::vector<unsigned char> infinite(vertices, 0);  // infinitely sharp edges at the vertex, at most 3
+  for (Index e = 0; e < edges; ++e) {
+    if (e % kStepsPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    const bool sharp = is_infinite(sharpness_.edges[e]);
+    edge_rules_[e] = linear_ || (linear_borders && topology_.is_boundary(e)) ? EdgeRule::linear
+                     : sharp                                                 ? EdgeRule::crease
+                                                                             : EdgeRule::smooth;
+    if (sharp)
+      for (const Index v : topology_.edge_vertices(e))
+        infinite[v] = std::min<unsigned char>(infinite[v] + 1, 3);
+  }
+  std::array<bool, kListedValence + 1> present{};
+  for (Index v = 0; v < vertices; ++v) {
+    const std::size_t valence = topology_.vertex_corners(v).size();
+    if (linear_ || valence == 0 || is_infinite(sharpness_.vertices[v]) || infinite[v] > 2) {
+      vertex_rules_[v] = VertexRule::corner;
+    } else if (infinite[v] == 2) {
+      vertex_rules_[v] = VertexRule::crease;
+    } else {
+      vertex_rules_[v] = infinite[v] == 1 ? VertexRule::dart : VertexRule::smooth;
+      if (valence <= kListedValence) present[valence] = true;
+    }
+  }
+  for (Index n = 0; n <= kListedValence; ++n)
+    if (present[n]) valences_.push_back(n);
+  return {};
+}
+
+Result<void> Net::decay_all(const Budget& budget) {
+  SemiSharp base;
+  for (Index e = 0; e < topology_.edge_count(); ++e)
+    if (is_semi_sharp(sharpness_.edges[e])) {
+      base.edges.push_back(e);
+      base.segments.push_back(sharpness_.edges[e]);
+    }
+  for (Index v = 0; v < topology_.vertex_count(); ++v)
+    if (is_semi_sharp(sharpness_.vertices[v])) {
+      base.vertices.push_back(v);
+      base.vertex_sharpness.push_back(sharpness_.vertices[v]);
+    }
+  while (!base.empty() && levels_.size() <= max_level_ + 1) {
+    if (auto stop = budget.poll()) return *stop;
+    levels_.push_back(std::move(base));
+    base = decayed(levels_.back(), static_cast<Index>(levels_.size() - 1));
+  }
+  return {};
+}
+
+// One level on.
+SemiSharp Net::decayed(const SemiSharp& level, Index index) const {
+  SemiSharp next;
+  for (std::size_t k = 0; k < level.vertices.size(); ++k)
+    if (const float s = decay(level.vertex_sharpness[k]); is_sharp(s)) {
+      next.vertices.push_back(level.vertices[k]);
+      next.vertex_sharpness.push_back(s);
+    }
+  if (method_ == CreaseMethod::uniform) {
+    for (std::size_t k = 0; k < level.edges.size(); ++k)
+      if (const float s = decay(level.segments[k]); is_sharp(s)) {
+        next.edges.push_back(level.edges[k]);
+        next.segments.push_back(s);
+      }
+    return next;
+  }
+  const Count n = segments(index);
+  next.per_edge = 2 * n;
+  next.edges = level.edges;
+  next.segments.assign(next.edges.size() * next.per_edge, 0.0f);
+  for (std::size_t k = 0; k < level.edges.size(); ++k)
+    for (Count i = 1; i < n; ++i) {
+      const std::array<float, 2> parent{level.segment(k, i - 1), level.segment(k, i)};
+      std::array<float, 2> child{};
+      decay_around_vertex(method_, parent, child);
+      next.segments[k * next.per_edge + 2 * i - 1] = child[0];
+      next.segments[k * next.per_edge + 2 * i] = child[1];
+    }
+  decay_ends(level, index, next);
+  // Leave out the edges that have run out altogether.
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < next.edges.size(); ++k) {
+    const auto first = next.segments.begin() + static_cast<std::ptrdiff_t>(k * next.per_edge);
+    const auto last = first + static_cast<std::ptrdiff_t>(next.per_edge);
+    if (std::none_of(first, last, is_sharp)) continue;
+    std::copy(first, last, next.segments.begin() + static_cast<std::ptrdiff_t>(kept * next.per_edge));
+    next.edges[kept++] = next.edges[k];
+  }
+  next.edges.resize(kept);
+  next.segments.resize(kept * next.per_edge);
+  return next;
+}
+
+// The halves next to base vertices, around which all edges decay together.
+void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to) const {
+  std::vector<Index> ends;
+  for (const Index e : from.edges)
+    for (const Index v : topology_.edge_vertices(e)) ends.push_back(v);
+  sort_unique(ends);
+  std::vector<float> parent, child;
+  for (const Index v : ends) {
+    const auto edges = topology_.vertex_edges(v);
+    parent.clear();
+    for (const Index e : edges) parent.push_back(sharpness_beside(level, e, v));
+    child.resize(parent.size());
+    decay_around_vertex(method_, parent, child);
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (const std::size_t at = position(to.edges, edges[k]); at != to.edges.size())
+        to.segments[at * to.per_edge + (topology_.edge_vertices(edges[k])[0] == v ? 0 : to.per_edge - 1)] =
+            child[k];
+  }
+}
+
+void Net::list_unsettled() {
+  for (const SemiSharp& level : levels_) {
+    std::vector<Index> list = level.vertices;
+    for (const Index e : level.edges)
+      for (const Index v : topology_.edge_vertices(e)) list.push_back(v);
+    sort_unique(list);
+    unsettled_.push_back(std::move(list));
+  }
+}
+
+}  // namespace subdivd

@@ -1,0 +1,106 @@
+#pragma once
+// A control net: the mesh, or one face-varying channel of it, as the engine sees it. Base vertices and base
+// edges carry all the rules there are; the inside of every base face is regular and smooth.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/budget.h"
+#include "core/base/index.h"
+#include "core/base/result.h"
+#include "core/mesh/channel.h"
+#include "core/mesh/control_mesh.h"
+#include "core/mesh/sharpness.h"
+#include "core/mesh/topology.h"
+#include "core/refine/split.h"
+#include "core/schemes/all.h"
+
+namespace subdivd {
+
+// How a base vertex is refined once all semi-sharpness has run out. A dart is refined as if smooth; its limit
+// is not.
+enum class VertexRule : unsigned char { smooth, dart, crease, corner };
+// The same for the points of a base edge. `linear`: midpoints, and points stay where they are.
+enum class EdgeRule : unsigned char { smooth, crease, linear };
+
+// linear: midpoints throughout, limits are the values (varying primvars, and channels that ask for it).
+enum class Smoothing { smooth, linear };
+
+// The semi-sharp edges and vertices of a level, all others left out.
+struct SemiSharp {
+  std::vector<Index> edges;     // base edges, ascending
+  std::vector<float> segments;  // sharpness, from the edge's lower end on: see segment()
+  std::vector<Index> vertices;  // base vertices whose own sharpness is semi-sharp, ascending
+  std::vector<float> vertex_sharpness;
+  Count per_edge = 1;  // numbers in `segments` per edge: 1, the same for all, or one per segment
+
+  bool empty() const { return edges.empty() && vertices.empty(); }
+  float segment(std::size_t edge_position, Count k) const {
+    return segments[edge_position * per_edge + (per_edge == 1 ? 0 : k)];
+  }
+  float vertex(Index v) const;  // 0 when it is not listed
+};
+
+class Net {
+ public:
+  // Of the mesh.
+  static Result<Net> build(const AnyScheme& scheme, CreaseMethod method, Topology topology,
+                           Sharpness sharpness, Index max_level, const Budget& budget);
+  // Of a channel of it, whose semi-sharp edges decay with the mesh's.
+  static Result<Net> build(std::shared_ptr<const Net> mesh, Channel channel, const Budget& budget);
+
+  const Topology& topology() const { return topology_; }
+  const Sharpness& sharpness() const { return sharpness_; }
+  const AnyScheme& scheme() const { return scheme_; }
+  CreaseMethod crease_method() const { return method_; }
+  Index max_level() const { return max_level_; }
+  Smoothing smoothing() const { return linear_ ? Smoothing::linear : Smoothing::smooth; }
+  // Of a channel: the mesh's net. Of the mesh: itself.
+  const Net& mesh() const { return mesh_ ? *mesh_ : *this; }
+
+  Count value_count(Index level) const {
+    return refined_counts(topology_.vertex_count(), topology_.edge_count(), topology_.face_count(), level)
+        .vertices;
+  }
+  // Which of the values that were given each of the net's vertices takes. Empty: its own number.
+  std::span<const Index> value_indices() const { return value_indices_; }
+
+  std::span<const VertexRule> vertex_rules() const { return vertex_rules_; }
+  std::span<const EdgeRule> edge_rules() const { return edge_rules_; }
+  // Valences of smooth vertices and darts, ascending; those above kListedValence are left out.
+  std::span<const Index> valences() const { return valences_; }
+  static constexpr Index kListedValence = 64;
+  // At levels 0 to max_level + 1; nothing is semi-sharp at levels beyond those listed.
+  const SemiSharp& semi_sharp(Index level) const;
+  // Sharpness at `level` of a segment of edge e, counted from its lower end; of the one next to its end v.
+  float segment_sharpness(Index level, Index e, Count from_low) const;
+  float sharpness_beside(Index level, Index e, Index v) const;
+  // Sharpness one level on of that segment's other half, the one away from v.
+  float sharpness_far(Index level, Index e, Index v) const;
+  // Base vertices whose point one level on from `level` is that of no settled rule, ascending.
+  std::span<const Index> unsettled_vertices(Index level) const;
+
+ private:
+  Result<void> set_rules(bool linear_borders, const Budget& budget);
+  void list_unsettled();
+  Result<void> decay_all(const Budget& budget);
+  SemiSharp decayed(const SemiSharp& level, Index index) const;
+  void decay_ends(const SemiSharp& from, Index level, SemiSharp& to) const;
+
+  std::shared_ptr<const Net> mesh_;
+  AnyScheme scheme_;
+  CreaseMethod method_ = CreaseMethod::uniform;
+  Index max_level_ = 0;
+  bool linear_ = false;
+  Topology topology_;
+  Sharpness sharpness_;
+  std::vector<Index> value_indices_;
+  std::vector<VertexRule> vertex_rules_;
+  std::vector<EdgeRule> edge_rules_;
+  std::vector<Index> valences_;
+  std::vector<SemiSharp> levels_;              // until nothing is semi-sharp
+  std::vector<std::vector<Index>> unsettled_;  // per level of levels_
+};
+
+}  // namespace subdivd

@@ -1,0 +1,129 @@
+#include "core/refine/triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/refine/numbering.h"
+
+namespace subdivd {
+namespace {
+
+// Up to here a face's triangles are looked up in one pattern for all faces.
+constexpr Count kPatternSegments = 8;
+
+// Local numbers of a face's points: row by row, borders included.
+constexpr Index local(Count n, Count i, Count j) {
+  return static_cast<Index>(j * (n + 1) - j * (j - 1) / 2 + i);
+}
+
+std::vector<unsigned char> pattern_of(Count n) {
+  std::vector<unsigned char> pattern;
+  const auto add = [&](Count i, Count j) { pattern.push_back(static_cast<unsigned char>(local(n, i, j))); };
+  for_each_triangle(n, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
+    add(i0, j0);
+    add(i1, j1);
+    add(i2, j2);
+  });
+  return pattern;
+}
+
+class FaceWriter {
+ public:
+  FaceWriter(const Topology& topology, Index level)
+      : topology_(topology), n_(segments(level)), low_(n_ + 1), high_(n_ + 1) {
+    if (n_ <= kPatternSegments) pattern_ = pattern_of(n_);
+  }
+
+  void write(Index face, Index* out) {
+    const FaceNumbers numbers(topology_, n_, face);
+    if (!pattern_.empty())
+      write_by_pattern(numbers, out);
+    else
+      write_by_rows(numbers, out);
+  }
+
+ private:
+  void write_by_pattern(const FaceNumbers& numbers, Index* out) {
+    std::array<Index, local(kPatternSegments, 0, kPatternSegments) + 1> points;  // NOLINT: set below
+    Index inside = numbers.inside, at = 0;
+    for (Count i = 0; i <= n_; ++i) points[at++] = on_bottom(numbers, i);
+    for (Count j = 1; j <= n_; ++j)
+      for (Count i = 0; i + j <= n_; ++i)
+        points[at++] = i == 0 ? left(numbers, j) : i + j == n_ ? right(numbers, j) : inside++;
+    for (const unsigned char point : pattern_) *out++ = points[point];
+  }
+
+  // Points of row j: its ends, and between them numbers that follow one another (but for the bottom row's).
+  Index on_bottom(const FaceNumbers& numbers, Count i) const {
+    if (i == 0) return numbers.corner[0];
+    if (i == n_) return numbers.corner[1];
+    return numbers.side[0] + static_cast<Index>(i - 1) * numbers.step[0];
+  }
+  Index left(const FaceNumbers& numbers, Count j) const {  // side 2 runs down to corner 0
+    return j == n_ ? numbers.corner[2] : numbers.side[2] + static_cast<Index>(n_ - j - 1) * numbers.step[2];
+  }
+  Index right(const FaceNumbers& numbers, Count j) const {
+    return j == n_ ? numbers.corner[2] : numbers.side[1] + static_cast<Index>(j - 1) * numbers.step[1];
+  }
+  void set_row(const FaceNumbers& numbers, Count j, std::vector<Index>& row) const {
+    if (j == 0) {
+      for (Count i = 0; i <= n_; ++i) row[i] = on_bottom(numbers, i);
+      return;
+    }
+    row[0] = left(numbers, j);
+    const auto first = static_cast<Index>(numbers.inside + inner_index(n_, 1, j));
+    for (Count i = 1; i + j < n_; ++i) row[i] = first + static_cast<Index>(i - 1);
+    row[n_ - j] = right(numbers, j);
+  }
+
+  void write_by_rows(const FaceNumbers& numbers, Index* out) {
+    set_row(numbers, 0, low_);
+    for (Count j = 0; j < n_; ++j) {
+      set_row(numbers, j + 1, high_);
+      out = write_row(low_.data(), high_.data(), n_ - j, out);
+      low_.swap(high_);
+    }
+  }
+
+  // Triangles between a row of m segments and the one above it.
+  static Index* write_row(const Index* low, const Index* high, Count m, Index* out) {
+    for (Count i = 0; i + 1 < m; ++i, out += 6) {
+      const Index square[6] = {low[i], low[i + 1], high[i], low[i + 1], high[i + 1], high[i]};
+      std::memcpy(out, square, sizeof square);
+    }
+    *out++ = low[m - 1];
+    *out++ = low[m];
+    *out++ = high[m - 1];
+    return out;
+  }
+
+  const Topology& topology_;
+  Count n_;
+  std::vector<unsigned char> pattern_;
+  std::vector<Index> low_, high_;
+};
+
+}  // namespace
+
+Result<void> write_triangles(const Topology& topology, Index level, std::span<const unsigned char> holes,
+                             Index* out, Index threads, const Budget& budget) {
+  const Count per_face = 3 * segments(level) * segments(level);
+  return Team::run(threads, budget, [&](Worker& worker) {
+    FaceWriter writer(topology, level);
+    const Range share = worker.share(topology.face_count());
+    Index* at =
+        out + per_face * static_cast<Count>(std::count(
+                             holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(share.begin), 0));
+    for (Count face = share.begin; face < share.end; ++face) {
+      if (holes[face] != 0) continue;
+      if (!worker.go_on(per_face / 8)) return;
+      writer.write(static_cast<Index>(face), at);
+      at += per_face;
+    }
+  });
+}
+
+}  // namespace subdivd

@@ -1,0 +1,272 @@
+// The engine against the plain one: every named shape, random meshes with everything on them, threads and
+// instruction sets.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/refine/evaluate.h"
+#include "core/refine/kernels/tri_step.h"
+#include "core/refine/plan.h"
+#include "core/refine/triangles.h"
+#include "tests/reference/plain_refine.h"
+#include "tests/shapes/shapes.h"
+
+namespace subdivd {
+namespace {
+
+template <class Real>
+double extent_of(std::span<const Real> values) {
+  double extent = 0;
+  for (const Real x : values) extent = std::max(extent, std::abs(static_cast<double>(x)));
+  return extent;
+}
+
+// Largest difference in units of the last place of the extent.
+template <class Real>
+double ulps(std::span<const Real> a, std::span<const Real> b) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    worst = std::max(worst, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
+  const double unit = extent_of(b) * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  return unit == 0 ? (worst == 0 ? 0 : std::numeric_limits<double>::infinity()) : worst / unit;
+}
+
+// Values are sums of products in another order at each of the levels; limits add one more.
+constexpr double kUlps = 4;
+
+// Sine of the angle between a vertex's two tangents.
+double sine(const RefinedMesh<double>& mesh, std::size_t k) {
+  const double *u = &mesh.tangents_u[k], *v = &mesh.tangents_v[k];
+  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
+  const double size = std::hypot(u[0], u[1], u[2]) * std::hypot(v[0], v[1], v[2]);
+  return size == 0 ? 0 : std::hypot(x, y, z) / size;
+}
+
+// Where tangents are nearly parallel (a pillow without filling) the normal's direction is a matter of
+// rounding, and more so the less they differ.
+void expect_normals(const RefinedMesh<double>& ours, const RefinedMesh<double>& plain,
+                    const std::string& what) {
+  ASSERT_EQ(ours.normals.size(), plain.normals.size()) << what;
+  for (std::size_t k = 0; k < ours.normals.size(); k += 3) {
+    const double clear = std::min(sine(ours, k), sine(plain, k));
+    if (clear < 1e-6) continue;
+    double distance = 0;
+    for (std::size_t c = 0; c < 3; ++c) distance += std::abs(ours.normals[k + c] - plain.normals[k + c]);
+    ASSERT_LT(distance, 1e-12 / clear) << what << ", vertex " << k / 3;
+  }
+}
+
+template <class Real>
+void expect_as_plain(const ControlMesh& mesh, const RefineOptions& options, const std::string& what) {
+  const auto ours = refine<Real>(mesh, options, {});
+  const auto plain = plain::refine<Real>(mesh, options);
+  ASSERT_TRUE(ours.ok()) << what << ": " << ours.error().message;
+  ASSERT_TRUE(plain.ok()) << what;
+  EXPECT_EQ(ours->triangles, plain->triangles) << what;
+  EXPECT_EQ(ours->triangle_faces, plain->triangle_faces) << what;
+  EXPECT_EQ(ours->triangle_count, plain->triangle_count) << what;
+  EXPECT_TRUE(std::ranges::equal(
+      ours->provenance, plain->provenance,
+      [](const Provenance& a, const Provenance& b) { return a.face == b.face && a.i == b.i && a.j == b.j; }))
+      << what;
+  EXPECT_LE(ulps<Real>(ours->points, plain->points), kUlps) << what << " points";
+  EXPECT_LE(ulps<Real>(ours->limit_points, plain->limit_points), kUlps) << what << " limits";
+  if constexpr (std::is_same_v<Real, double>) expect_normals(*ours, *plain, what + " normals");
+  ASSERT_EQ(ours->primvars.size(), plain->primvars.size()) << what;
+  for (std::size_t p = 0; p < ours->primvars.size(); ++p) {
+    const std::string name = what + " primvar " + ours->primvars[p].name;
+    EXPECT_EQ(ours->primvars[p].indices, plain->primvars[p].indices) << name;
+    EXPECT_LE(ulps<Real>(ours->primvars[p].values, plain->primvars[p].values), kUlps) << name;
+    EXPECT_LE(ulps<Real>(ours->primvars[p].limit_values, plain->primvars[p].limit_values), kUlps) << name;
+  }
+}
+
+RefineOptions everything(Index level, CreaseMethod method = CreaseMethod::uniform) {
+  return {.level = level, .crease_method = method, .limit = true, .tangents = true, .normals = true};
+}
+
+TEST(engine, equals_the_plain_one_on_every_shape) {
+  for (const shapes::NamedShape& shape : shapes::all_shapes())
+    for (const CreaseMethod method : {CreaseMethod::uniform, CreaseMethod::chaikin})
+      for (Index level = 0; level <= 3; ++level) {
+        const std::string what = shape.name + " level " + std::to_string(level);
+        expect_as_plain<double>(shape.mesh, everything(level, method), what);
+        if (method == CreaseMethod::uniform)
+          expect_as_plain<float>(shape.mesh, everything(level, method), what + " float");
+        if (HasFailure()) return;
+      }
+}
+
+TEST(engine, equals_the_plain_one_at_higher_levels) {
+  int count = 0;
+  for (const shapes::NamedShape& shape : shapes::all_shapes()) {
+    if (shape.mesh.face_count() > 24 || ++count % 4 != 0) continue;
+    expect_as_plain<double>(shape.mesh, everything(5, CreaseMethod::chaikin), shape.name);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(engine, equals_the_plain_one_on_random_meshes) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const ControlMesh mesh = shapes::random_mesh(seed);
+    const CreaseMethod method = seed % 2 == 0 ? CreaseMethod::chaikin : CreaseMethod::uniform;
+    expect_as_plain<double>(mesh, everything(static_cast<Index>(seed % 4), method),
+                            "seed " + std::to_string(seed));
+    if (HasFailure()) return;
+  }
+}
+
+template <class Real>
+void expect_same_bytes(const RefinedMesh<Real>& a, const RefinedMesh<Real>& b, const std::string& what) {
+  EXPECT_EQ(a.points, b.points) << what;
+  EXPECT_EQ(a.limit_points, b.limit_points) << what;
+  EXPECT_EQ(a.tangents_u, b.tangents_u) << what;
+  EXPECT_EQ(a.tangents_v, b.tangents_v) << what;
+  EXPECT_EQ(a.normals, b.normals) << what;
+  EXPECT_EQ(a.triangles, b.triangles) << what;
+  for (std::size_t p = 0; p < a.primvars.size(); ++p) {
+    EXPECT_EQ(a.primvars[p].values, b.primvars[p].values) << what;
+    EXPECT_EQ(a.primvars[p].limit_values, b.primvars[p].limit_values) << what;
+  }
+}
+
+TEST(engine, gives_the_same_bytes_for_any_number_of_threads) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const ControlMesh mesh = shapes::random_mesh(seed);
+    RefineOptions options = everything(static_cast<Index>(seed % 7));
+    const auto one = refine<float>(mesh, options, {});
+    ASSERT_TRUE(one.ok());
+    for (const Index threads : {2u, 3u, 7u}) {
+      options.threads = threads;
+      expect_same_bytes(*one, *refine<float>(mesh, options, {}),
+                        "seed " + std::to_string(seed) + ", threads " + std::to_string(threads));
+    }
+  }
+}
+
+template <class Real>
+void compare_instruction_sets() {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const ControlMesh mesh = shapes::random_mesh(seed);
+    const RefineOptions options = everything(static_cast<Index>(seed % 6));
+    kernels::force_instruction_set(0);
+    const auto baseline = refine<Real>(mesh, options, {});
+    ASSERT_TRUE(baseline.ok());
+    for (int set = 1; set < kernels::kInstructionSets; ++set) {
+      if (!kernels::has_instruction_set(set)) continue;
+      kernels::force_instruction_set(set);
+      expect_same_bytes(*baseline, *refine<Real>(mesh, options, {}),
+                        std::string(kernels::tri_kernels<Real>().name) + ", seed " + std::to_string(seed));
+    }
+    kernels::force_instruction_set(-1);
+  }
+}
+
+TEST(engine, gives_the_same_floats_with_every_instruction_set) { compare_instruction_sets<float>(); }
+TEST(engine, gives_the_same_doubles_with_every_instruction_set) { compare_instruction_sets<double>(); }
+
+ControlMesh fan(Index valence) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 1};
+  for (Index k = 0; k < valence; ++k) {
+    const double angle = 2 * 3.14159265358979323846 * k / valence;
+    mesh.points.insert(mesh.points.end(), {std::cos(angle), std::sin(angle), 0});
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {0, 1 + k, 1 + (k + 1) % valence});
+  }
+  return mesh;
+}
+
+TEST(engine, takes_any_valence) {
+  for (const Index valence : {3u, 4u, 5u, 7u, 12u, 64u, 65u, 100u, 1000u})
+    expect_as_plain<double>(fan(valence), everything(2), "valence " + std::to_string(valence));
+  const auto hub = refine<float>(fan(70000), everything(3), {});
+  ASSERT_TRUE(hub.ok());
+  EXPECT_TRUE(std::ranges::all_of(hub->points, [](float x) { return std::isfinite(x); }));
+  EXPECT_NEAR(hub->normals[2], 1, 1e-3);
+}
+
+TEST(engine, refines_a_million_triangles_that_share_nothing) {
+  ControlMesh mesh;
+  const Index count = 1000000;
+  for (Index f = 0; f < count; ++f) {
+    for (const double x : {0.0, 1.0, 0.0}) mesh.points.insert(mesh.points.end(), {x + f, 1 - x, 0});
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  RefineOptions options{.level = 1};
+  options.provenance = false;
+  const auto refined = refine<float>(mesh, options, {});
+  ASSERT_TRUE(refined.ok());
+  EXPECT_EQ(refined->points.size(), 3u * 6 * count);
+  EXPECT_EQ(refined->triangles.size(), 3u * 4 * count);
+}
+
+TEST(engine, refines_one_triangle_to_level_12) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  mesh.face_vertex_indices = {0, 1, 2};
+  RefineOptions options{.level = 12};
+  options.provenance = false;
+  options.threads = 2;
+  const auto refined = refine<float>(mesh, options, {});
+  ASSERT_TRUE(refined.ok());
+  EXPECT_EQ(refined->points.size() / 3, 4097u * 4098 / 2);
+  const Index last = *std::ranges::max_element(refined->triangles);
+  EXPECT_EQ(last + 1, refined->points.size() / 3);
+  for (std::size_t k = 0; k < refined->points.size(); k += 3) {
+    ASSERT_GE(refined->points[k], 0);
+    ASSERT_LE(refined->points[k] + refined->points[k + 1], 1 + 1e-5);
+    ASSERT_EQ(refined->points[k + 2], 0);
+  }
+}
+
+TEST(engine, evaluates_one_plan_again_for_other_values) {
+  const ControlMesh mesh = shapes::random_mesh(5);
+  const auto plan = Plan::build(mesh, {.max_level = 3}, {});
+  ASSERT_TRUE(plan.ok());
+  for (const double scale : {1.0, -2.0, 4.0}) {
+    ControlMesh moved = mesh;
+    for (double& x : moved.points) x *= scale;
+    std::vector<double> values(3 * plan->mesh().value_count(3));
+    const auto done =
+        evaluate<double>(plan->mesh(), 3, moved.points, 3, Smoothing::smooth, {values.data()}, 1, {});
+    ASSERT_TRUE(done.ok());
+    const auto once = refine<double>(moved, {.level = 3}, {});
+    EXPECT_TRUE(std::ranges::equal(values, once->points)) << scale;
+  }
+}
+
+TEST(engine, stops_when_nobody_waits_any_more) {
+  const std::atomic<bool> cancelled{true};
+  Budget budget;
+  budget.cancelled = &cancelled;
+  for (const Index threads : {1u, 3u}) {
+    const auto refined = refine<float>(fan(100), {.level = 5, .threads = threads}, budget);
+    ASSERT_FALSE(refined.ok());
+    EXPECT_EQ(refined.error().code, ErrorCode::cancelled);
+  }
+}
+
+TEST(engine, stops_within_50_milliseconds_of_a_deadline) {
+  const ControlMesh mesh = fan(200);
+  const auto plan = Plan::build(mesh, {}, {});
+  const std::vector<float> control(mesh.points.begin(), mesh.points.end());
+  Buffer<float> values(3 * plan->mesh().value_count(9));
+  Budget budget;
+  budget.deadline = Budget::Clock::now();
+  for (const Index threads : {1u, 2u}) {
+    const auto begin = Budget::Clock::now();
+    const auto done =
+        evaluate<float>(plan->mesh(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
+    ASSERT_FALSE(done.ok());
+    EXPECT_EQ(done.error().code, ErrorCode::deadline_exceeded);
+    // Generous: what is tested is that it does not go on to the end.
+    EXPECT_LT(Budget::Clock::now() - begin, std::chrono::seconds(1));
+  }
+}
+
+}  // namespace
+}  // namespace subdivd
