@@ -65,6 +65,16 @@ bool set_normal(Frame<Real>& frame) {
   const auto size = [](const Real x[3]) {
     return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
   };
+  // The short way, where nothing over- or underflows and the tangents are clearly apart.
+  cross(frame.u, frame.v, frame.normal);
+  const Real uu = dot(frame.u, frame.u), vv = dot(frame.v, frame.v), nn = dot(frame.normal, frame.normal);
+  constexpr Real kTiny = sizeof(Real) == 4 ? Real(1e-30) : Real(1e-250);
+  if (nn > kTiny && nn < 1 / kTiny && nn > Real(1e-6) * (uu * vv) && uu > Real(1e-6) * vv &&
+      vv > Real(1e-6) * uu) {
+    const Real length = std::sqrt(nn);
+    for (Real& x : frame.normal) x /= length;
+    return true;
+  }
   const Real u = size(frame.u), v = size(frame.v);
   if (std::min(u, v) <= 16 * std::numeric_limits<Real>::epsilon() * std::max(u, v)) return false;
   Real unit_u[3], unit_v[3];

@@ -65,12 +65,12 @@ class Topology::Numbering {
       if (is_heavy(high)) return heavy_edge(h, low, high);
       home = high;
     }
-    const std::array<Index, 2> ends{low, high};
-    for (Index e = chains_[home]; e != kNoIndex; e = next_[e])
-      if (t_.edge_vertices_[e] == ends) return e;
+    const Index far = low ^ high ^ home;
+    for (Index e = chains_[home]; e != kNoIndex; e = next_[e].edge)
+      if (next_[e].far == far) return e;
     const Index e = t_.edge_count();
-    t_.edge_vertices_.push_back(ends);
-    next_.push_back(chains_[home]);
+    t_.edge_vertices_.push_back({low, high});
+    next_.push_back({chains_[home], far});
     chains_[home] = e;
     return e;
   }
@@ -101,13 +101,16 @@ class Topology::Numbering {
     const Heavy& heavy = heavy_[heavy_at_++];  // half-edges come in ascending order
     if (heavy.first != h) return t_.half_edge_edges_[heavy.first];
     t_.edge_vertices_.push_back({low, high});
-    next_.push_back(kNoIndex);
+    next_.push_back({kNoIndex, kNoIndex});
     return t_.edge_count() - 1;
   }
 
   Topology& t_;
   std::vector<Index> chains_;  // per vertex: the last edge that hangs there
-  Buffer<Index> next_;         // per edge: the one before it in its chain
+  struct Link {
+    Index edge, far;  // the edge before it in its chain, and its own end that is not the chain's
+  };
+  Buffer<Link> next_;  // per edge
   std::vector<Heavy> heavy_;
   std::size_t heavy_at_ = 0;
   Count half_edges_;

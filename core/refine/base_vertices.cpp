@@ -145,7 +145,9 @@ void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to,
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::limit_settled(Count n, const Real* values, Index v, Real* out) const {
+template <class Width>
+void BaseVertices<Scheme, Real>::limit_settled(Count n, const Real* values, Index v, Real* out,
+                                               Width width) const {
   const auto edges = net_.topology().vertex_edges(v);
   VertexMask mask;
   switch (net_.vertex_rules()[v]) {
@@ -163,7 +165,7 @@ void BaseVertices<Scheme, Real>::limit_settled(Count n, const Real* values, Inde
     case VertexRule::corner:
       break;
   }
-  weigh(n, values, v, mask, out, width_);
+  weigh(n, values, v, mask, out, width);
 }
 
 // Counter-clockwise from the lowest corner on.
@@ -253,7 +255,12 @@ void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Ev
       limit_by_ring(level, values, out, v, false);
       continue;
     }
-    if (out.limits != nullptr) limit_settled(n, values, v, out.limits + Count{v} * width_);
+    if (out.limits != nullptr) {
+      if (width_ == 3)
+        limit_settled(n, values, v, out.limits + Count{v} * 3, std::integral_constant<Index, 3>{});
+      else
+        limit_settled(n, values, v, out.limits + Count{v} * width_, width_);
+    }
     if (!out.wants_frames()) continue;
     Frame<Real> frame;
     if (rule == VertexRule::smooth) smooth_frame(n, values, v, frame);

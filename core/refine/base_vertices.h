@@ -46,7 +46,8 @@ class BaseVertices {
   template <class Width>
   void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out, Width width) const;
   std::array<Index, 2> crease_edges(Index v) const;
-  void limit_settled(Count n, const Real* values, Index v, Real* out) const;
+  template <class Width>
+  void limit_settled(Count n, const Real* values, Index v, Real* out, Width width) const;
   void smooth_frame(Count n, const Real* values, Index v, Frame<Real>& frame) const;
   void limit_by_ring(Index level, const Real* values, const Evaluated<Real>& out, Index v,
                      bool frames_only) const;

@@ -30,7 +30,7 @@ static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRu
 // The frame of a regular point whose tangents are too close to parallel, too long or too short for the short
 // way.
 template <class Scheme, class Real>
-void robust_frame(const Real (*points)[3], Real* u, Real* v, Real* normal) {
+void robust_frame(const Real (*points)[4], Real* u, Real* v, Real* normal) {
   Ring<Real> ring;
   ring.center.assign(points[0], points[0] + 3);
   for (int k = 1; k < 7; ++k) ring.neighbors.insert(ring.neighbors.end(), points[k], points[k] + 3);
@@ -61,7 +61,6 @@ class Evaluation {
       : net_(net),
         scheme_(scheme),
         level_(level),
-        control_(control),
         width_(width),
         linear_(smoothing == Smoothing::linear),
         out_(out),
@@ -74,17 +73,27 @@ class Evaluation {
     if (out.wants_limits()) vertices_.prepare_limits(out.wants_frames());
     // Two levels below the last take turns; the last goes straight to the caller.
     for (Index k = 0; k < 2; ++k)
-      if (level > k + 1) scratch_[k].resize(net.value_count(level - 1 - k) * width);
+      if (level > k + 1) set_size(scratch_[k], net.value_count(level - 1 - k) * width);
+    set_size(control_, control.size());
+    std::ranges::copy(control, control_.begin());
     if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
   }
 
   Result<void> run(Index threads, const Budget& budget) {
     deferred_.resize(threads);
-    if (level_ == 0 && out_.values != nullptr) std::ranges::copy(control_, out_.values);
+    if (level_ == 0 && out_.values != nullptr)
+      std::copy(control_.begin(), control_.end() - kSpare, out_.values);
     return Team::run(threads, budget, [&](Worker& worker) { work(worker); });
   }
 
  private:
+  // Steps read a little past the end of what they refine.
+  static constexpr std::ptrdiff_t kSpare = 4;
+  static void set_size(Buffer<Real>& buffer, Count size) {
+    buffer.resize(size + kSpare);
+    std::fill(buffer.end() - kSpare, buffer.end(), Real(0));
+  }
+
   // The array of a level.
   const Real* values_at(Index level) const {
     return level == 0 ? control_.data() : const_cast<Evaluation*>(this)->target_at(level);
@@ -274,7 +283,7 @@ class Evaluation {
   const Net& net_;
   Scheme scheme_;
   Index level_;
-  std::span<const Real> control_;
+  Buffer<Real> control_;
   Index width_;
   bool linear_;
   Evaluated<Real> out_;

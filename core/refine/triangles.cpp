@@ -39,13 +39,21 @@ class FaceWriter {
 
   void write(Index face, Index* out) {
     const FaceNumbers numbers(topology_, n_, face);
-    if (!pattern_.empty())
+    if (n_ == 2)
+      write_four(numbers, out);
+    else if (!pattern_.empty())
       write_by_pattern(numbers, out);
     else
       write_by_rows(numbers, out);
   }
 
  private:
+  static void write_four(const FaceNumbers& numbers, Index* out) {
+    const Index *v = numbers.corner, *e = numbers.side;
+    const Index four[12] = {v[0], e[0], e[2], e[0], e[1], e[2], e[0], v[1], e[1], e[2], e[1], v[2]};
+    std::memcpy(out, four, sizeof four);
+  }
+
   void write_by_pattern(const FaceNumbers& numbers, Index* out) {
     std::array<Index, local(kPatternSegments, 0, kPatternSegments) + 1> points;  // NOLINT: set below
     Index inside = numbers.inside, at = 0;
@@ -88,16 +96,45 @@ class FaceWriter {
     }
   }
 
-  // Triangles between a row of m segments and the one above it.
+  // Triangles between a row of m segments and the one above it: two by two, (low i, low i+1, high i) and
+  // (low i+1, high i+1, high i), and one more at the end.
   static Index* write_row(const Index* low, const Index* high, Count m, Index* out) {
-    for (Count i = 0; i + 1 < m; ++i, out += 6) {
-      const Index square[6] = {low[i], low[i + 1], high[i], low[i + 1], high[i + 1], high[i]};
-      std::memcpy(out, square, sizeof square);
+    const auto square = [&](Count i) {
+      const Index six[6] = {low[i], low[i + 1], high[i], low[i + 1], high[i + 1], high[i]};
+      std::memcpy(out, six, sizeof six);
+      out += 6;
+    };
+    Count i = 0;
+    if (m > 2 * kRun && low[1] + 1 == low[2]) {
+      square(i++);
+      i += write_runs(low[i], high[i], (m - 2 - i) / kRun, out);
     }
+    for (; i + 1 < m; ++i) square(i);
     *out++ = low[m - 1];
     *out++ = low[m];
     *out++ = high[m - 1];
     return out;
+  }
+
+  // Inside a row numbers follow one another, so all that is stored is a pattern that grows by one a square:
+  // `runs` times kRun squares from low number `a` and high number `b` on. Returns the number of squares.
+  static constexpr Count kRun = 4;
+  static Count write_runs(Index a, Index b, Count runs, Index*& out) {
+    using Four = Index __attribute__((vector_size(16)));
+    Index first[6 * kRun];
+    for (Index i = 0; i < kRun; ++i) {
+      const Index six[6] = {a + i, a + i + 1, b + i, a + i + 1, b + i + 1, b + i};
+      std::memcpy(first + 6 * i, six, sizeof six);
+    }
+    Four pattern[6];
+    std::memcpy(pattern, first, sizeof pattern);
+    for (Count run = 0; run < runs; ++run)
+      for (Four& four : pattern) {
+        std::memcpy(out, &four, sizeof four);
+        out += 4;
+        four += Index{kRun};
+      }
+    return runs * kRun;
   }
 
   const Topology& topology_;
@@ -117,9 +154,10 @@ Result<void> write_triangles(const Topology& topology, Index level, std::span<co
     Index* at =
         out + per_face * static_cast<Count>(std::count(
                              holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(share.begin), 0));
+    constexpr Count kFacesPerPoll = 64;
     for (Count face = share.begin; face < share.end; ++face) {
+      if (face % kFacesPerPoll == 0 && !worker.go_on(kFacesPerPoll * per_face / 8)) return;
       if (holes[face] != 0) continue;
-      if (!worker.go_on(per_face / 8)) return;
       writer.write(static_cast<Index>(face), at);
       at += per_face;
     }

@@ -26,7 +26,7 @@ struct TriStep {
   Index vertex_count, edge_count;
   Count n;
   Index width;
-  const Real* from;
+  const Real* from;  // a step may read 3 scalars past its end, a limit may not
   Real* to;
   TriMasks<Real> masks;
   Real* rows;  // scratch of row_scratch(n) scalars
@@ -39,8 +39,8 @@ struct TriLimit {
   Real self, each;                          // limit mask, valence 6
   Real *tangents_u, *tangents_v, *normals;  // may be null
   // Sets the frame of a point whose tangents single precision arithmetic cannot tell apart, from its ring:
-  // the point and its six neighbours counter-clockwise.
-  void (*robust_frame)(const Real (*ring)[3], Real* u, Real* v, Real* normal);
+  // the point and its six neighbours counter-clockwise, 3 scalars each and one to spare.
+  void (*robust_frame)(const Real (*ring)[4], Real* u, Real* v, Real* normal);
 };
 
 // Rows [row, ...) of the faces from `face` on.
@@ -50,7 +50,7 @@ struct FaceRow {
 };
 
 inline constexpr Count row_stride(Count n) { return 4 * (n + 4); }
-inline constexpr Count row_scratch(Count n) { return 3 * row_stride(n) + 16; }
+inline constexpr Count row_scratch(Count n) { return 6 * row_stride(n) + 16; }
 
 // The loops for one instruction set; index K - 1 holds those for K scalars, 1 to 4.
 template <class Real>
