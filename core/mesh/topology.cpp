@@ -36,42 +36,58 @@ class Topology::Numbering {
   explicit Numbering(Topology& topology)
       : t_(topology), chains_(topology.vertex_count_, kNoIndex), half_edges_(topology.triangles_.size()) {
     t_.half_edge_edges_.resize(half_edges_);
-    t_.edge_vertices_.reserve(half_edges_ / 2 + half_edges_ / 16 + 64);
-    next_.reserve(t_.edge_vertices_.capacity());
+    t_.mates_.resize(half_edges_);
+    const Count edges =
+        half_edges_ / 2 + half_edges_ / 16 + 64;  // room for as many borders as most meshes have
+    t_.edge_vertices_.reserve(edges);
+    t_.edge_sides_.reserve(edges);
+    t_.edge_kinds_.reserve(edges);
+    next_.reserve(edges);
   }
 
   Result<void> run(const Budget& budget) {
-    sort_heavy();
+    mark_heavy();
     for (Index face = 0; face < half_edges_ / 3; ++face) {
       if (face % kFacesPerPoll == 0)
         if (auto stop = budget.poll()) return *stop;
       const Index* v = &t_.triangles_[3 * std::size_t{face}];
-      t_.half_edge_edges_[3 * face] = edge_of(3 * face, v[0], v[1]);
-      t_.half_edge_edges_[3 * face + 1] = edge_of(3 * face + 1, v[1], v[2]);
-      t_.half_edge_edges_[3 * face + 2] = edge_of(3 * face + 2, v[2], v[0]);
+      join(3 * face, v[0], v[1]);
+      join(3 * face + 1, v[1], v[2]);
+      join(3 * face + 2, v[2], v[0]);
     }
     return {};
   }
 
  private:
-  bool is_heavy(Index v) const {
-    return t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v] > kLongestChain;
+  static constexpr Index kHeavy = kNoIndex - 1;  // in chains_: too many corners for a chain
+
+  void join(Index h, Index a, Index b) {
+    const Index e = edge_of(h, a, b);
+    t_.half_edge_edges_[h] = e;
+    t_.join_edge(h, e);
   }
 
   Index edge_of(Index h, Index a, Index b) {
     const Index low = std::min(a, b), high = std::max(a, b);
-    Index home = low;
-    if (is_heavy(low)) {
-      if (is_heavy(high)) return heavy_edge(h, low, high);
+    Index home = low, far = high;
+    if (chains_[low] == kHeavy) {
+      if (chains_[high] == kHeavy) return heavy_edge(h, low, high);
       home = high;
+      far = low;
     }
-    const Index far = low ^ high ^ home;
     for (Index e = chains_[home]; e != kNoIndex; e = next_[e].edge)
       if (next_[e].far == far) return e;
-    const Index e = t_.edge_count();
-    t_.edge_vertices_.push_back({low, high});
+    const Index e = add(low, high);
     next_.push_back({chains_[home], far});
     chains_[home] = e;
+    return e;
+  }
+
+  Index add(Index low, Index high) {
+    const Index e = t_.edge_count();
+    t_.edge_vertices_.push_back({low, high});
+    t_.edge_sides_.push_back({kNoIndex, kNoIndex});
+    t_.edge_kinds_.push_back(EdgeKind::border);
     return e;
   }
 
@@ -79,11 +95,20 @@ class Topology::Numbering {
   struct Heavy {
     Index low, high, half_edge, first;
   };
+  void mark_heavy() {
+    Count heavy = 0;
+    for (Index v = 0; v < t_.vertex_count_; ++v)
+      if (t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v] > kLongestChain) {
+        chains_[v] = kHeavy;
+        ++heavy;
+      }
+    if (heavy > 1) sort_heavy();
+  }
   void sort_heavy() {
-    if (max_corners() <= kLongestChain) return;
     for (Index h = 0; h < half_edges_; ++h) {
       const Index a = t_.triangles_[h], b = t_.triangles_[next(h)];
-      if (is_heavy(a) && is_heavy(b)) heavy_.push_back({std::min(a, b), std::max(a, b), h, h});
+      if (chains_[a] == kHeavy && chains_[b] == kHeavy)
+        heavy_.push_back({std::min(a, b), std::max(a, b), h, h});
     }
     std::ranges::sort(heavy_, {}, [](const Heavy& x) { return std::tuple(x.low, x.high, x.half_edge); });
     for (std::size_t k = 1; k < heavy_.size(); ++k)
@@ -91,18 +116,11 @@ class Topology::Numbering {
         heavy_[k].first = heavy_[k - 1].first;
     std::ranges::sort(heavy_, {}, &Heavy::half_edge);
   }
-  Index max_corners() const {
-    Index most = 0;
-    for (Index v = 0; v < t_.vertex_count_; ++v)
-      most = std::max(most, t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v]);
-    return most;
-  }
   Index heavy_edge(Index h, Index low, Index high) {
     const Heavy& heavy = heavy_[heavy_at_++];  // half-edges come in ascending order
     if (heavy.first != h) return t_.half_edge_edges_[heavy.first];
-    t_.edge_vertices_.push_back({low, high});
     next_.push_back({kNoIndex, kNoIndex});
-    return t_.edge_count() - 1;
+    return add(low, high);
   }
 
   Topology& t_;
@@ -136,43 +154,42 @@ Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Inde
       half_edge_edges_(std::move(half_edge_edges)),
       edge_vertices_(std::move(edge_vertices)) {
   group_corners();
+  mates_.resize(triangles_.size());
+  edge_sides_.assign(edge_count(), {kNoIndex, kNoIndex});
+  edge_kinds_.assign(edge_count(), EdgeKind::border);
+  for (Index h = 0; h < triangles_.size(); ++h) join_edge(h, half_edge_edges_[h]);
   (void)connect({});  // an unlimited budget
 }
 
 Result<void> Topology::connect(const Budget& budget) {
-  for (auto part : {&Topology::pair_half_edges, &Topology::gather_crowds, &Topology::group_edges,
-                    &Topology::find_non_manifold_vertices}) {
+  for (auto part :
+       {&Topology::gather_crowds, &Topology::group_edges, &Topology::find_non_manifold_vertices}) {
     if (auto stop = budget.poll()) return *stop;
     (this->*part)();
   }
   return {};
 }
 
-void Topology::pair_half_edges() {
-  mates_.resize(triangles_.size());
-  edge_sides_.assign(edge_count(), {kNoIndex, kNoIndex});
-  edge_kinds_.assign(edge_count(), EdgeKind::border);
-  for (Index h = 0; h < triangles_.size(); ++h) {
-    const Index e = half_edge_edges_[h];
-    auto& sides = edge_sides_[e];
-    mates_[h] = kNoIndex;
-    if (sides[0] == kNoIndex) {
-      sides[0] = h;
-    } else if (sides[1] == kNoIndex) {
-      sides[1] = h;
-      const Index first = sides[0];
-      if (triangles_[first] == triangles_[h]) {
-        edge_kinds_[e] = EdgeKind::clash;
-      } else {
-        edge_kinds_[e] = EdgeKind::manifold;
-        mates_[h] = first;
-        mates_[first] = h;
-      }
+// Half-edge h, the highest so far, runs along edge e.
+void Topology::join_edge(Index h, Index e) {
+  auto& sides = edge_sides_[e];
+  mates_[h] = kNoIndex;
+  if (sides[0] == kNoIndex) {
+    sides[0] = h;
+  } else if (sides[1] == kNoIndex) {
+    sides[1] = h;
+    const Index first = sides[0];
+    if (triangles_[first] == triangles_[h]) {
+      edge_kinds_[e] = EdgeKind::clash;
     } else {
-      if (edge_kinds_[e] != EdgeKind::crowded) crowded_edges_.push_back(e);
-      edge_kinds_[e] = EdgeKind::crowded;
-      mates_[sides[0]] = mates_[sides[1]] = kNoIndex;
+      edge_kinds_[e] = EdgeKind::manifold;
+      mates_[h] = first;
+      mates_[first] = h;
     }
+  } else {
+    if (edge_kinds_[e] != EdgeKind::crowded) crowded_edges_.push_back(e);
+    edge_kinds_[e] = EdgeKind::crowded;
+    mates_[sides[0]] = mates_[sides[1]] = kNoIndex;
   }
 }
 
@@ -219,17 +236,17 @@ void Topology::group_edges() {
       [](Count k) { return static_cast<Index>(k / 2); }, vertex_edge_offsets_, vertex_edges_);
 }
 
+// Whether the walk from the first corner round the vertex, or to the border on both sides, meets them all.
 bool Topology::is_one_fan(std::span<const Index> corners) const {
-  // One fan holds every corner: walk from a border corner, or all the way round.
-  Index start = corners[0];
-  for (const Index h : corners)
-    if (mates_[h] == kNoIndex) start = h;
+  const Index start = corners[0];
   std::size_t count = 0;
   Index h = start;
   do {
     ++count;
     h = mates_[prev(h)];
   } while (h != kNoIndex && h != start);
+  if (h == kNoIndex)
+    for (h = mates_[start]; h != kNoIndex; h = mates_[next(h)]) ++count;
   return count == corners.size();
 }
 

@@ -101,7 +101,7 @@ class Topology {
   }
   class Numbering;
   Result<void> connect(const Budget& budget);
-  void pair_half_edges();
+  void join_edge(Index h, Index e);
   void gather_crowds();
   void group_corners();
   void group_edges();

@@ -44,7 +44,8 @@ class BaseVertices {
   void refine_settled(Count n, const Real* from, Real* to, Index begin, Index end) const;
   void refine_unsettled(Index level, const Real* from, Real* to, Index v) const;
   template <class Width>
-  void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out, Width width) const;
+  [[gnu::always_inline]] inline void weigh(Count n, const Real* from, Index v, const VertexMask& mask,
+                                           Real* out, Width width) const;
   std::array<Index, 2> crease_edges(Index v) const;
   template <class Width>
   void limit_settled(Count n, const Real* values, Index v, Real* out, Width width) const;

@@ -136,7 +136,9 @@ Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
   for (Index e = 0; e < edges; ++e) {
     if (e % kStepsPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
-    const bool sharp = is_infinite(sharpness_.edges[e]);
+    const float sharpness = sharpness_.edges[e];
+    const bool sharp = is_infinite(sharpness);
+    if (is_semi_sharp(sharpness)) semi_sharp_edges_.push_back(e);
     edge_rules_[e] = linear_ || (linear_borders && topology_.is_boundary(e)) ? EdgeRule::linear
                      : sharp                                                 ? EdgeRule::crease
                                                                              : EdgeRule::smooth;
@@ -163,11 +165,8 @@ Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
 
 Result<void> Net::decay_all(const Budget& budget) {
   SemiSharp base;
-  for (Index e = 0; e < topology_.edge_count(); ++e)
-    if (is_semi_sharp(sharpness_.edges[e])) {
-      base.edges.push_back(e);
-      base.segments.push_back(sharpness_.edges[e]);
-    }
+  base.edges = std::move(semi_sharp_edges_);
+  for (const Index e : base.edges) base.segments.push_back(sharpness_.edges[e]);
   for (Index v = 0; v < topology_.vertex_count(); ++v)
     if (is_semi_sharp(sharpness_.vertices[v])) {
       base.vertices.push_back(v);

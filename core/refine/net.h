@@ -99,6 +99,7 @@ class Net {
   std::vector<VertexRule> vertex_rules_;
   std::vector<EdgeRule> edge_rules_;
   std::vector<Index> valences_;
+  std::vector<Index> semi_sharp_edges_;        // while the net is built
   std::vector<SemiSharp> levels_;              // until nothing is semi-sharp
   std::vector<std::vector<Index>> unsettled_;  // per level of levels_
 };
