@@ -159,8 +159,8 @@ class Job {
   Result<void> refine_primvars() {
     std::size_t channel = 0;
     for (const Primvar& primvar : mesh_.primvars) {
-      RefinedPrimvar<Real>& out =
-          out_.primvars.emplace_back(primvar.name, primvar.interpolation, primvar.element_size);
+      RefinedPrimvar<Real>& out = out_.primvars.emplace_back(
+          RefinedPrimvar<Real>{primvar.name, primvar.interpolation, primvar.element_size, {}, {}, {}});
       Result<void> done;
       switch (primvar.interpolation) {
         case Interpolation::constant:
