@@ -43,7 +43,7 @@ struct UnsetAllocator : std::allocator<T> {
     if (bytes < kHugePage)
       std::allocator<T>::deallocate(block, count);
     else
-      ::operator delete(block, std::align_val_t{kHugePage});
+      ::operator delete (block, std::align_val_t{kHugePage});
   }
 
   template <class U>
