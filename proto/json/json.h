@@ -1,6 +1,6 @@
 #pragma once
 // The JSON encoding of requests and answers (DESIGN §6). read: simdjson; write: the shortest texts
-// (number_text.h).
+// (text_writer.h).
 
 #include <string>
 #include <string_view>

@@ -1,17 +1,17 @@
 #include "proto/json/text_writer.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "proto/json/number_text.h"
-
 namespace subdivd::proto::json {
 namespace {
 
 constexpr std::size_t kChunkSize = std::size_t{1} << 20;
+constexpr std::size_t kLongestNumber = 32;  // of a double 24: -2.2250738585072014e-308
 
 }  // namespace
 
@@ -59,7 +59,7 @@ std::size_t TextWriter::array(std::span<const Number> values, std::size_t width,
     char* at = begin;
     if (i > 0) *at++ = ',';
     if (nested && in_tuple == 0) *at++ = '[';
-    at = write_number(at, values[i]);
+    at = std::to_chars(at, at + kLongestNumber, values[i]).ptr;
     if (++in_tuple == width) {
       in_tuple = 0;
       if (nested) *at++ = ']';

@@ -1,6 +1,6 @@
 #pragma once
 // JSON text into chunks of about a megabyte: a big answer is never one string, so it never needs twice its
-// size.
+// size. Numbers are written with std::to_chars, the shortest text that reads back to the same bits.
 
 #include <cstddef>
 #include <memory>

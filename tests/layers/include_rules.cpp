@@ -29,7 +29,7 @@ const std::vector<Layer> kLayers = {
   {"core/tessellate",  {"core/base/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/"}, {}},
   {"core/oracle",      {"core/base/", "core/mesh/", "core/refine/", "core/limit/", "core/curves/", "core/oracle/"}, {"opensubdiv/"}},
   {"proto",            {"core/base/", "core/curves/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/",
-                        "core/oracle/report.h", "proto/"}, {"fmt/", "nlohmann/", "simdjson.h", "tiny_gltf.h"}},
+                        "core/oracle/report.h", "proto/"}, {"nlohmann/", "simdjson.h", "tiny_gltf.h"}},
   {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "POSIX"}},
   {"server/transport", {"core/base/", "proto/", "server/"}, {"httplib.h", "spdlog/", "openssl/", "POSIX"}},
 };
