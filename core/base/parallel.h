@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <barrier>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -54,10 +55,12 @@ class Team {
  public:
   // Calls work(worker) once on each of `threads` threads (at least 1; fewer when the system has no more to
   // give) and waits for all. `work` returns early when go_on or meet says false; the reason is returned here.
+  // What one of them throws (out of memory) stops all and is thrown here, when all have ended.
   template <class Work>
   static Result<void> run(Index threads, const Budget& budget, Work&& work) {
     Team team(budget);
     team.start(threads, [&](Worker worker) { work(worker); });
+    if (team.thrown_) std::rethrow_exception(team.thrown_);
     if (team.error_) return std::move(*team.error_);
     return {};
   }
@@ -69,12 +72,13 @@ class Team {
   template <class Work>
   void start(Index threads, Work&& work) {
     std::vector<std::thread> others;
+    others.reserve(threads);
     std::atomic<Index> count{0};
     try {
       for (Index k = 1; k < threads; ++k)
         others.emplace_back([&, k] {
           count.wait(0);
-          work(Worker(*this, k, count));
+          guarded(work, Worker(*this, k, count));
         });
     } catch (const std::system_error&) {
       // The threads that there are do the work of all.
@@ -83,8 +87,22 @@ class Team {
     barrier_.emplace(all);
     count = all;
     count.notify_all();
-    work(Worker(*this, 0, all));
+    guarded(work, Worker(*this, 0, all));
     for (std::thread& other : others) other.join();
+  }
+
+  template <class Work>
+  void guarded(Work& work, Worker worker) {
+    try {
+      work(worker);
+    } catch (...) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (!thrown_) thrown_ = std::current_exception();
+      }
+      stopped_.store(true, std::memory_order_relaxed);
+      barrier_->arrive_and_drop();  // the others need not wait for this one any more
+    }
   }
 
   void poll() {
@@ -100,6 +118,7 @@ class Team {
   std::atomic<bool> stopped_{false};
   std::mutex mutex_;
   std::optional<Error> error_;
+  std::exception_ptr thrown_;
 };
 
 inline bool Worker::go_on(Count steps) {
