@@ -116,22 +116,25 @@ class Job {
   Result<void> refine_connectivity() {
     if (auto done = write_indices(plan_.mesh(), out_.triangles); !done) return done;
     if (!options_.provenance) return {};
-    out_.provenance = provenance();
     out_.triangle_faces = triangle_faces();
-    return {};
+    return write_provenance();
   }
 
-  Buffer<Provenance> provenance() const {
-    const Numbering numbering(plan_.mesh().topology(), options_.level);
+  Result<void> write_provenance() {
+    const Topology& topology = plan_.mesh().topology();
+    const Numbering numbering(topology, options_.level);
     const Count n = numbering.segment_count();
-    Buffer<Provenance> places(numbering.vertex_count());
-    std::fill_n(places.begin(), plan_.mesh().topology().vertex_count(), Provenance{});
-    for (Index f = plan_.mesh().topology().face_count();
-         f-- > 0;)  // backwards: the lowest-numbered face wins
+    const Count faces_per_poll = std::max<Count>(1, (Count{1} << 18) / (n * n));
+    out_.provenance.resize(numbering.vertex_count());
+    std::fill_n(out_.provenance.begin(), topology.vertex_count(), Provenance{});
+    for (Index f = topology.face_count(); f-- > 0;) {  // backwards: the lowest-numbered face wins
+      if (f % faces_per_poll == 0)
+        if (auto stop = budget_.poll()) return *stop;
       for (Count j = 0; j <= n; ++j)
         for (Count i = 0; i + j <= n; ++i)
-          places[numbering.vertex(f, i, j)] = {f, static_cast<Index>(i), static_cast<Index>(j)};
-    return places;
+          out_.provenance[numbering.vertex(f, i, j)] = {f, static_cast<Index>(i), static_cast<Index>(j)};
+    }
+    return {};
   }
 
   Buffer<Index> triangle_faces() const {

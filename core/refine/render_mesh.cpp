@@ -10,12 +10,16 @@ namespace subdivd {
 namespace {
 
 // For every refined vertex of the render mesh the refined vertex of `net` at the same place of the same face.
-Buffer<Index> sources_of(const Topology& render, const Topology& net, Index first_face, Index level,
-                         std::span<const unsigned char> holes, Count vertex_count) {
+Result<Buffer<Index>> sources_of(const Topology& render, const Topology& net, Index first_face, Index level,
+                                 std::span<const unsigned char> holes, Count vertex_count,
+                                 const Budget& budget) {
   const Count n = segments(level);
   Buffer<Index> sources(vertex_count);
   std::ranges::fill(sources, kNoIndex);
+  const Count faces_per_poll = std::max<Count>(1, (Count{1} << 18) / (n * n));
   for (Index face = 0; face < render.face_count(); ++face) {
+    if (face % faces_per_poll == 0)
+      if (auto stop = budget.poll()) return *stop;
     if (holes[face] != 0) continue;
     const FaceNumbers to(render, n, face), from(net, n, first_face + face);
     for (int k = 0; k < 3; ++k) {
@@ -49,12 +53,16 @@ Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan&
       !done)
     return std::move(done).error();
   const auto sources = [&](const Net& net) {
-    return sources_of(*topology, net.topology(), mesh.face_begin, level, own_holes, refined.vertex_count);
+    return sources_of(*topology, net.topology(), mesh.face_begin, level, own_holes, refined.vertex_count,
+                      budget);
   };
-  refined.source_vertices = sources(plan.mesh());
+  auto vertices = sources(plan.mesh());
+  if (!vertices) return std::move(vertices).error();
+  refined.source_vertices = std::move(*vertices);
   for (std::size_t k = 0; k < plan.channel_count(); ++k) {
-    if (auto stop = budget.poll()) return *stop;
-    refined.source_values.push_back(sources(plan.channel(k)));
+    auto values = sources(plan.channel(k));
+    if (!values) return std::move(values).error();
+    refined.source_values.push_back(std::move(*values));
   }
   return refined;
 }

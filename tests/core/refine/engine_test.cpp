@@ -250,7 +250,7 @@ TEST(engine, stops_when_nobody_waits_any_more) {
   }
 }
 
-TEST(engine, stops_within_50_milliseconds_of_a_deadline) {
+TEST(engine, stops_at_a_deadline_before_the_end) {
   const ControlMesh mesh = fan(200);
   const auto plan = Plan::build(mesh, {}, {});
   const std::vector<float> control(mesh.points.begin(), mesh.points.end());
@@ -258,13 +258,12 @@ TEST(engine, stops_within_50_milliseconds_of_a_deadline) {
   Budget budget;
   budget.deadline = Budget::Clock::now();
   for (const Index threads : {1u, 2u}) {
-    const auto begin = Budget::Clock::now();
+    values.back() = -7;
     const auto done =
         evaluate<float>(plan->mesh(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().code, ErrorCode::deadline_exceeded);
-    // Generous: what is tested is that it does not go on to the end.
-    EXPECT_LT(Budget::Clock::now() - begin, std::chrono::seconds(1));
+    EXPECT_EQ(values.back(), -7);  // nobody got that far
   }
 }
 
