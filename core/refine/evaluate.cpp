@@ -80,6 +80,7 @@ class Evaluation {
   }
 
   Result<void> run(Index threads, const Budget& budget) {
+    threads = std::max<Index>(threads, 1);
     deferred_.resize(threads);
     if (level_ == 0 && out_.values != nullptr)
       std::copy(control_.begin(), control_.end() - kSpare, out_.values);
@@ -228,7 +229,6 @@ class Evaluation {
                          out_.tangents_v,
                          out_.normals,
                          &robust_frame<Scheme, Real>};
-    limit.level.rows = rows.data();
     if (linear_) {
       limit.self = 1;
     } else {
