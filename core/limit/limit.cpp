@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/positions.h"
 #include "core/schemes/loop.h"
 
 namespace subdivd {
@@ -96,13 +97,11 @@ void gather_decay(CreaseMethod method, const Sharp& own, const Sharp& mesh, Inde
     for (Index e : edges) result.push_back(mesh.sharpness.edges[e]);
     return result;
   };
-  auto position = [](std::span<const Index> edges, Index e) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin());
-  };
+  const Positions in_around(around);
   ring.around = sharpness_of(around);
   for (Index e : own.topology.vertex_edges(v)) {
     const Index in_mesh = mesh.topology.half_edge_edge(own.topology.edge_half_edges(e)[0]);
-    ring.in_mesh.push_back(position(around, in_mesh));
+    ring.in_mesh.push_back(in_around(in_mesh));
     if (is_infinite(own.sharpness.edges[e])) {
       ring.far_child.push_back(kInfiniteSharpness);
       continue;
@@ -112,22 +111,17 @@ void gather_decay(CreaseMethod method, const Sharp& own, const Sharp& mesh, Inde
     const std::vector<float> parent = sharpness_of(at_end);
     std::vector<float> child(parent.size());
     decay_around_vertex(method, parent, child);
-    ring.far_child.push_back(child[position(at_end, in_mesh)]);
+    ring.far_child.push_back(
+        child[static_cast<std::size_t>(std::ranges::find(at_end, in_mesh) - at_end.begin())]);
   }
 }
 
 template <class Real>
 void Ring<Real>::set_faces(const Topology& topology, Index v) {
-  const auto edges = topology.vertex_edges(v);
-  auto position = [&](Index h) {  // of the edge of half-edge h in the ring
-    const Index e = topology.half_edge_edge(h);
-    return static_cast<Index>(std::ranges::lower_bound(edges, e) - edges.begin());
-  };
+  const Positions in_ring(topology.vertex_edges(v));
+  auto position = [&](Index h) { return static_cast<Index>(in_ring(topology.half_edge_edge(h))); };
   for (Index h : topology.vertex_corners(v)) wedges.push_back({position(h), position(Topology::prev(h))});
-  auto passable = [&](Index e) {
-    return !is_infinite(
-        edge_sharpness[static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin())]);
-  };
+  auto passable = [&](Index e) { return !is_infinite(edge_sharpness[in_ring(e)]); };
   for (const Topology::Fan& fan : topology.fans(v, passable)) {
     Sector sector{{}, fan.closed};
     for (Index h : fan.corners) sector.edges.push_back(position(h));

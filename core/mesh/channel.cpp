@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mesh/positions.h"
+
 namespace subdivd {
 namespace {
 
@@ -146,11 +148,11 @@ class Rules {
     const auto around = base_.vertex_edges(v);
     std::vector<float> edges, next(around.size()), own, own_next;
     for (Index e : around) edges.push_back(base_sharpness_.edges[e]);
+    const Positions in_around(around);
     std::vector<std::size_t> inside;  // of the fan, as positions around v
     for (Index h : channel_.topology.vertex_corners(c))
       if (!channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)))
-        inside.push_back(static_cast<std::size_t>(std::ranges::lower_bound(around, base_.half_edge_edge(h)) -
-                                                  around.begin()));
+        inside.push_back(in_around(base_.half_edge_edge(h)));
     float vertex = base_sharpness_.vertices[v];
     for (float levels = 0;; ++levels) {
       decay_around_vertex(crease_method_, edges, next);

@@ -69,6 +69,20 @@ inline bool any_repeats(std::span<const Index> triangles) {
   return found;
 }
 
+// Calls f(k) for every element that is not zero, ascending; where there are few, at the speed of the memory.
+template <class T, class F>
+void for_each_set(std::span<const T> values, F&& f) {
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, values.size());
+    unsigned any = 0;
+    for (std::size_t k = begin; k < end; ++k) any |= values[k] != T{};
+    if (any == 0) continue;
+    for (std::size_t k = begin; k < end; ++k)
+      if (values[k] != T{}) f(k);
+  }
+}
+
 // Whether every index is below `count` and no triangle names a vertex twice: in one walk through memory.
 inline bool all_sound(std::span<const Index> triangles, Count count) {
   constexpr std::size_t kBlock = 3 * 1024;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mesh/scan.h"
+
 namespace subdivd {
 namespace {
 
@@ -103,17 +105,23 @@ float fractional_weight(CreaseMethod method, float parent_vertex, float child_ve
 
 Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology) {
   Sharpness result{tagged_edges(mesh, topology), std::vector<float>(topology.vertex_count(), 0.0f)};
-  for (Index e = 0; e < topology.edge_count(); ++e)
-    if (topology.is_boundary(e) || topology.is_non_manifold_edge(e)) result.edges[e] = kInfiniteSharpness;
+  const bool pin_corners = mesh.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
+  const auto is_border_corner = [&](Index v) {
+    return topology.vertex_corners(v).size() == 1 && topology.vertex_edges(v).size() == 2;
+  };
+  for_each_set(topology.edge_kinds(), [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; });
   for (std::size_t k = 0; k < mesh.corner_indices.size(); ++k)
     result.vertices[mesh.corner_indices[k]] = clamped(mesh.corner_sharpnesses[k]);
-  const bool pin_corners = mesh.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    const bool border_corner = topology.vertex_corners(v).size() == 1 && topology.vertex_edges(v).size() == 2;
-    if ((border_corner && pin_corners) ||
-        (topology.is_non_manifold_vertex(v) && !border_corner && !inside_non_manifold_crease(topology, v)))
+  if (pin_corners)
+    for_each_set(topology.edge_kinds(), [&](std::size_t e) {
+      for (const Index v : topology.edge_vertices(static_cast<Index>(e)))
+        if (is_border_corner(v)) result.vertices[v] = kInfiniteSharpness;
+    });
+  for_each_set(topology.non_manifold_vertices(), [&](std::size_t k) {
+    const auto v = static_cast<Index>(k);
+    if (!is_border_corner(v) && !inside_non_manifold_crease(topology, v))
       result.vertices[v] = kInfiniteSharpness;
-  }
+  });
   return result;
 }
 

@@ -1,138 +1,16 @@
 #include "core/mesh/topology.h"
 
-#include <tuple>
+#include <cstdint>
+
+#include "core/mesh/scan.h"
 
 namespace subdivd {
 namespace {
 
 // Between two polls of the budget.
-constexpr Index kFacesPerPoll = 1 << 18;
-
-// A vertex of more corners is not searched along a chain: a hub of a million edges must not cost a million
-// steps for each.
-constexpr Index kLongestChain = 64;
-
-// Turns counts[k + 1] per row k into offsets.
-void accumulate(Buffer<Index>& counts) {
-  for (std::size_t k = 1; k < counts.size(); ++k) counts[k] += counts[k - 1];
-}
-
-// Scatters item i to row key(i) for ascending i; offsets come back as they went in.
-template <class Key, class Item>
-void scatter(Count count, Key key, Item item, Buffer<Index>& offsets, Buffer<Index>& items) {
-  items.resize(count);
-  for (Count i = 0; i < count; ++i) items[offsets[key(i)]++] = item(i);
-  // Every row's begin has moved to its end: the next row's begin.
-  std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
-  offsets[0] = 0;
-}
+constexpr Index kVerticesPerPoll = 1 << 18;
 
 }  // namespace
-
-// Finds the edge of every half-edge. Edges hang in a chain at one of their ends, one of few corners; chains
-// are short, and a mesh whose faces come in any natural order finds them in the cache.
-class Topology::Numbering {
- public:
-  explicit Numbering(Topology& topology)
-      : t_(topology), chains_(topology.vertex_count_, kNoIndex), half_edges_(topology.triangles_.size()) {
-    t_.half_edge_edges_.resize(half_edges_);
-    t_.mates_.resize(half_edges_);
-    const Count edges =
-        half_edges_ / 2 + half_edges_ / 16 + 64;  // room for as many borders as most meshes have
-    t_.edge_vertices_.reserve(edges);
-    t_.edge_sides_.reserve(edges);
-    t_.edge_kinds_.reserve(edges);
-    next_.reserve(edges);
-  }
-
-  Result<void> run(const Budget& budget) {
-    mark_heavy();
-    for (Index face = 0; face < half_edges_ / 3; ++face) {
-      if (face % kFacesPerPoll == 0)
-        if (auto stop = budget.poll()) return *stop;
-      const Index* v = &t_.triangles_[3 * std::size_t{face}];
-      join(3 * face, v[0], v[1]);
-      join(3 * face + 1, v[1], v[2]);
-      join(3 * face + 2, v[2], v[0]);
-    }
-    return {};
-  }
-
- private:
-  static constexpr Index kHeavy = kNoIndex - 1;  // in chains_: too many corners for a chain
-
-  void join(Index h, Index a, Index b) {
-    const Index e = edge_of(h, a, b);
-    t_.half_edge_edges_[h] = e;
-    t_.join_edge(h, e);
-  }
-
-  Index edge_of(Index h, Index a, Index b) {
-    const Index low = std::min(a, b), high = std::max(a, b);
-    Index home = low, far = high;
-    if (chains_[low] == kHeavy) {
-      if (chains_[high] == kHeavy) return heavy_edge(h, low, high);
-      home = high;
-      far = low;
-    }
-    for (Index e = chains_[home]; e != kNoIndex; e = next_[e].edge)
-      if (next_[e].far == far) return e;
-    const Index e = add(low, high);
-    next_.push_back({chains_[home], far});
-    chains_[home] = e;
-    return e;
-  }
-
-  Index add(Index low, Index high) {
-    const Index e = t_.edge_count();
-    t_.edge_vertices_.push_back({low, high});
-    t_.edge_sides_.push_back({kNoIndex, kNoIndex});
-    t_.edge_kinds_.push_back(EdgeKind::border);
-    return e;
-  }
-
-  // Between two heavy vertices: the first half-edge along the edge, found beforehand by sorting, names it.
-  struct Heavy {
-    Index low, high, half_edge, first;
-  };
-  void mark_heavy() {
-    Count heavy = 0;
-    for (Index v = 0; v < t_.vertex_count_; ++v)
-      if (t_.vertex_corner_offsets_[v + 1] - t_.vertex_corner_offsets_[v] > kLongestChain) {
-        chains_[v] = kHeavy;
-        ++heavy;
-      }
-    if (heavy > 1) sort_heavy();
-  }
-  void sort_heavy() {
-    for (Index h = 0; h < half_edges_; ++h) {
-      const Index a = t_.triangles_[h], b = t_.triangles_[next(h)];
-      if (chains_[a] == kHeavy && chains_[b] == kHeavy)
-        heavy_.push_back({std::min(a, b), std::max(a, b), h, h});
-    }
-    std::ranges::sort(heavy_, {}, [](const Heavy& x) { return std::tuple(x.low, x.high, x.half_edge); });
-    for (std::size_t k = 1; k < heavy_.size(); ++k)
-      if (heavy_[k].low == heavy_[k - 1].low && heavy_[k].high == heavy_[k - 1].high)
-        heavy_[k].first = heavy_[k - 1].first;
-    std::ranges::sort(heavy_, {}, &Heavy::half_edge);
-  }
-  Index heavy_edge(Index h, Index low, Index high) {
-    const Heavy& heavy = heavy_[heavy_at_++];  // half-edges come in ascending order
-    if (heavy.first != h) return t_.half_edge_edges_[heavy.first];
-    next_.push_back({kNoIndex, kNoIndex});
-    return add(low, high);
-  }
-
-  Topology& t_;
-  std::vector<Index> chains_;  // per vertex: the last edge that hangs there
-  struct Link {
-    Index edge, far;  // the edge before it in its chain, and its own end that is not the chain's
-  };
-  Buffer<Link> next_;  // per edge
-  std::vector<Heavy> heavy_;
-  std::size_t heavy_at_ = 0;
-  Count half_edges_;
-};
 
 Topology::Topology(Index vertex_count, std::vector<Index> triangles)
     : Topology(std::move(*build(vertex_count, std::move(triangles), {}))) {}
@@ -141,68 +19,58 @@ Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangle
   Topology topology;
   topology.vertex_count_ = vertex_count;
   topology.triangles_ = std::move(triangles);
-  topology.group_corners();
-  if (auto done = Numbering(topology).run(budget); !done) return std::move(done).error();
-  if (auto done = topology.connect(budget); !done) return std::move(done).error();
+  const Buffer<Index> first_corners = topology.count_corners();
+  auto edges = find_edges(vertex_count, topology.triangles_, topology.vertex_corner_offsets_, budget);
+  if (!edges) return std::move(edges).error();
+  topology.edges_ = std::move(*edges);
+  if (auto done = topology.connect(first_corners, budget); !done) return std::move(done).error();
   return topology;
 }
 
 Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
                    Buffer<std::array<Index, 2>> edge_vertices)
-    : vertex_count_(vertex_count),
-      triangles_(std::move(triangles)),
-      half_edge_edges_(std::move(half_edge_edges)),
-      edge_vertices_(std::move(edge_vertices)) {
-  group_corners();
-  mates_.resize(triangles_.size());
-  edge_sides_.assign(edge_count(), {kNoIndex, kNoIndex});
-  edge_kinds_.assign(edge_count(), EdgeKind::border);
-  for (Index h = 0; h < triangles_.size(); ++h) join_edge(h, half_edge_edges_[h]);
-  (void)connect({});  // an unlimited budget
+    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
+  edges_.of_half_edges = std::move(half_edge_edges);
+  edges_.vertices = std::move(edge_vertices);
+  edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
+  for (Index h = 0; h < triangles_.size(); ++h) edges_.attach(h, triangles_[h], edges_.of_half_edges[h]);
+  edges_.set_kinds();
+  const Buffer<Index> first_corners = count_corners();
+  (void)connect(first_corners, {});  // an unlimited budget
 }
 
-Result<void> Topology::connect(const Budget& budget) {
-  for (auto part :
-       {&Topology::gather_crowds, &Topology::group_edges, &Topology::find_non_manifold_vertices}) {
-    if (auto stop = budget.poll()) return *stop;
-    (this->*part)();
+// Sets the lengths of the rows of corners; returns the lowest corner at every vertex that has one.
+Buffer<Index> Topology::count_corners() {
+  Buffer<Index> first(vertex_count_);
+  vertex_corner_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
+  for (auto h = static_cast<Index>(triangles_.size()); h-- > 0;) {
+    const Index v = triangles_[h];
+    ++vertex_corner_offsets_[v + 1];
+    first[v] = h;
   }
+  for (std::size_t v = 1; v < vertex_corner_offsets_.size(); ++v)
+    vertex_corner_offsets_[v] += vertex_corner_offsets_[v - 1];
+  return first;
+}
+
+Result<void> Topology::connect(std::span<const Index> first_corners, const Budget& budget) {
+  gather_crowds();
+  count_edges();
+  if (auto stop = budget.poll()) return *stop;
+  if (auto done = go_round_vertices(first_corners, budget); !done) return done;
+  list_non_manifold();
   return {};
 }
 
-// Half-edge h, the highest so far, runs along edge e.
-void Topology::join_edge(Index h, Index e) {
-  auto& sides = edge_sides_[e];
-  mates_[h] = kNoIndex;
-  if (sides[0] == kNoIndex) {
-    sides[0] = h;
-  } else if (sides[1] == kNoIndex) {
-    sides[1] = h;
-    const Index first = sides[0];
-    if (triangles_[first] == triangles_[h]) {
-      edge_kinds_[e] = EdgeKind::clash;
-    } else {
-      edge_kinds_[e] = EdgeKind::manifold;
-      mates_[h] = first;
-      mates_[first] = h;
-    }
-  } else {
-    if (edge_kinds_[e] != EdgeKind::crowded) crowded_edges_.push_back(e);
-    edge_kinds_[e] = EdgeKind::crowded;
-    mates_[sides[0]] = mates_[sides[1]] = kNoIndex;
-  }
-}
-
 void Topology::gather_crowds() {
-  if (crowded_edges_.empty()) return;
-  std::ranges::sort(crowded_edges_);
-  std::vector<std::pair<Index, Index>> members;  // position in crowded_edges_, half-edge
+  const std::vector<Index>& crowded = edges_.non_manifold;
+  if (crowded.empty()) return;
+  std::vector<std::pair<Index, Index>> members;  // position among the crowded, half-edge
   for (Index h = 0; h < triangles_.size(); ++h)
-    if (const Index e = half_edge_edges_[h]; edge_kinds_[e] == EdgeKind::crowded)
-      members.emplace_back(
-          static_cast<Index>(std::ranges::lower_bound(crowded_edges_, e) - crowded_edges_.begin()), h);
+    if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e))
+      members.emplace_back(static_cast<Index>(std::ranges::lower_bound(crowded, e) - crowded.begin()), h);
   std::ranges::sort(members);
-  crowd_offsets_.assign(crowded_edges_.size() + 1, 0);
+  crowd_offsets_.assign(crowded.size() + 1, 0);
   for (const auto& [position, h] : members) {
     crowd_half_edges_.push_back(h);
     crowd_offsets_[position + 1] = static_cast<Index>(crowd_half_edges_.size());
@@ -210,57 +78,88 @@ void Topology::gather_crowds() {
 }
 
 std::span<const Index> Topology::crowd_of(Index e) const {
-  const auto k =
-      static_cast<std::size_t>(std::ranges::lower_bound(crowded_edges_, e) - crowded_edges_.begin());
+  const std::vector<Index>& crowded = edges_.non_manifold;
+  const auto k = static_cast<std::size_t>(std::ranges::lower_bound(crowded, e) - crowded.begin());
   return std::span(crowd_half_edges_).subspan(crowd_offsets_[k], crowd_offsets_[k + 1] - crowd_offsets_[k]);
 }
 
-void Topology::group_corners() {
-  vertex_corner_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
-  for (const Index v : triangles_) ++vertex_corner_offsets_[v + 1];
-  accumulate(vertex_corner_offsets_);
-  scatter(
-      triangles_.size(), [&](Count h) { return triangles_[h]; },
-      [](Count h) { return static_cast<Index>(h); }, vertex_corner_offsets_, vertex_corners_);
-}
-
-void Topology::group_edges() {
-  vertex_edge_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
-  for (const auto& ends : edge_vertices_) {
-    ++vertex_edge_offsets_[ends[0] + 1];
-    ++vertex_edge_offsets_[ends[1] + 1];
-  }
-  accumulate(vertex_edge_offsets_);
-  scatter(
-      Count{2} * edge_count(), [&](Count k) { return edge_vertices_[k / 2][k % 2]; },
-      [](Count k) { return static_cast<Index>(k / 2); }, vertex_edge_offsets_, vertex_edges_);
-}
-
-// Whether the walk from the first corner round the vertex, or to the border on both sides, meets them all.
-bool Topology::is_one_fan(std::span<const Index> corners) const {
-  const Index start = corners[0];
-  std::size_t count = 0;
-  Index h = start;
-  do {
-    ++count;
-    h = mates_[prev(h)];
-  } while (h != kNoIndex && h != start);
-  if (h == kNoIndex)
-    for (h = mates_[start]; h != kNoIndex; h = mates_[next(h)]) ++count;
-  return count == corners.size();
-}
-
-void Topology::find_non_manifold_vertices() {
+// Sets the lengths of the rows of edges from those of corners, and finds the ends of non-manifold edges.
+// Every corner is at two edges, and an edge is at as many of v's corners as it has faces: 2 for most, so v
+// has as many edges as corners, and half of (2 - faces) more for each that has not two.
+void Topology::count_edges() {
   non_manifold_vertices_.assign(vertex_count_, 0);
-  for (Index e = 0; e < edge_count(); ++e)
-    if (is_non_manifold_edge(e)) {
-      non_manifold_vertices_[edge_vertices_[e][0]] = 1;
-      non_manifold_vertices_[edge_vertices_[e][1]] = 1;
+  vertex_edge_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
+  for_each_set(edge_kinds(), [&](std::size_t e) {
+    const auto edge = static_cast<Index>(e);
+    for (const Index v : edges_.vertices[e]) {
+      vertex_edge_offsets_[v + 1] += 2 - static_cast<Index>(edge_half_edges(edge).size());  // modulo 2^32
+      if (!is_boundary(edge)) non_manifold_vertices_[v] = 1;
     }
+  });
+  std::int64_t more = 0;
   for (Index v = 0; v < vertex_count_; ++v) {
-    const auto corners = vertex_corners(v);
-    if (!corners.empty() && non_manifold_vertices_[v] == 0) non_manifold_vertices_[v] = !is_one_fan(corners);
+    more += static_cast<std::int32_t>(vertex_edge_offsets_[v + 1]);
+    vertex_edge_offsets_[v + 1] = static_cast<Index>(vertex_corner_offsets_[v + 1] + more / 2);
   }
+}
+
+// Writes the corners and edges of all vertices whose faces are one fan, and finds the others.
+Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, const Budget& budget) {
+  vertex_corners_.resize(triangles_.size());
+  vertex_edges_.resize(std::size_t{2} * edge_count());
+  for (Index v = 0; v < vertex_count_; ++v) {
+    if (v % kVerticesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    if (vertex_corners(v).empty() || non_manifold_vertices_[v] != 0) continue;
+    if (!go_round(v, first_corners[v])) non_manifold_vertices_[v] = 1;
+  }
+  return {};
+}
+
+// Whether the walk from the first corner round v, or from border to border, meets all of v's corners.
+bool Topology::go_round(Index v, Index first_corner) {
+  const std::size_t corners = vertex_corners(v).size();
+  const Count met = write_fan(v, first_corner);
+  if (corners == vertex_edges(v).size()) return met == corners;
+  // Clockwise to the border.
+  Index start = first_corner;
+  while (true) {
+    const Index h = across(edges_.of_half_edges[start], start);
+    if (h == kNoIndex) break;
+    start = next(h);
+    if (start == first_corner) return false;  // a closed fan, beside an open one
+  }
+  return (start == first_corner ? met : write_fan(v, start)) == corners;
+}
+
+// Writes corners counter-clockwise from `start` on, and their edges, until they come to `start` again or to a
+// border; returns how many.
+Count Topology::write_fan(Index v, Index start) {
+  Index* const corners = vertex_corners_.data() + vertex_corner_offsets_[v];
+  Index* const edges = vertex_edges_.data() + vertex_edge_offsets_[v];
+  const Index* const edge_of = edges_.of_half_edges.data();
+  Count count = 0;
+  Index h = start, e = edge_of[h];
+  do {
+    corners[count] = h;
+    edges[count++] = e;
+    e = edge_of[prev(h)];
+    h = across(e, prev(h));
+  } while (h != start && h != kNoIndex);
+  if (h == kNoIndex) edges[count] = e;
+  return count;
+}
+
+// Writes the corners and edges of the other vertices.
+void Topology::list_non_manifold() {
+  if (std::ranges::count(non_manifold_vertices_, 1) == 0) return;
+  Buffer<Index> ends = vertex_corner_offsets_;
+  for (Index h = 0; h < triangles_.size(); ++h)
+    if (const Index v = triangles_[h]; is_non_manifold_vertex(v)) vertex_corners_[ends[v]++] = h;
+  ends = vertex_edge_offsets_;
+  for (Index e = 0; e < edge_count(); ++e)
+    for (const Index v : edges_.vertices[e])
+      if (is_non_manifold_vertex(v)) vertex_edges_[ends[v]++] = e;
 }
 
 }  // namespace subdivd

@@ -21,15 +21,15 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/mesh/edges.h"
 
 namespace subdivd {
 
 class Topology {
  public:
   Topology() = default;
-  // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed).
-  // Edges are numbered in the order in which the faces, corner by corner, first run along them. Linear time,
-  // some tens of nanoseconds a triangle; edges between two vertices of more than 64 corners each are sorted.
+  // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed). Edges
+  // are numbered by find_edges(). Linear time, some tens of nanoseconds a triangle.
   Topology(Index vertex_count, std::vector<Index> triangles);
   // The same, and stops when the budget is polled dry.
   static Result<Topology> build(Index vertex_count, std::vector<Index> triangles, const Budget& budget);
@@ -40,41 +40,50 @@ class Topology {
            Buffer<std::array<Index, 2>> edge_vertices);
 
   Index vertex_count() const { return vertex_count_; }
-  Index edge_count() const { return static_cast<Index>(edge_vertices_.size()); }
+  Index edge_count() const { return edges_.count(); }
   Index face_count() const { return static_cast<Index>(triangles_.size() / 3); }
 
   std::span<const Index> triangles() const { return triangles_; }
-  std::span<const Index> half_edge_edges() const { return half_edge_edges_; }
-  std::span<const std::array<Index, 2>> edge_vertices() const { return edge_vertices_; }
-  // Per edge its two lowest half-edges; the second is kNoIndex at a boundary.
-  std::span<const std::array<Index, 2>> edge_sides() const { return edge_sides_; }
+  std::span<const Index> half_edge_edges() const { return edges_.of_half_edges; }
+  std::span<const std::array<Index, 2>> edge_vertices() const { return edges_.vertices; }
+  // Per edge the half-edge that runs from its lower end, and the other; kNoIndex: none.
+  std::span<const std::array<Index, 2>> edge_sides() const { return edges_.sides; }
   Index corner_vertex(Index h) const { return triangles_[h]; }
-  Index half_edge_edge(Index h) const { return half_edge_edges_[h]; }
+  Index half_edge_edge(Index h) const { return edges_.of_half_edges[h]; }
   // The two ends, the lower-numbered first.
-  std::array<Index, 2> edge_vertices(Index e) const { return edge_vertices_[e]; }
+  std::array<Index, 2> edge_vertices(Index e) const { return edges_.vertices[e]; }
   Index other_end(Index e, Index v) const {
-    return edge_vertices_[e][0] == v ? edge_vertices_[e][1] : edge_vertices_[e][0];
+    return edges_.vertices[e][0] == v ? edges_.vertices[e][1] : edges_.vertices[e][0];
   }
-  // Half-edges along e, ascending.
+  // Half-edges along e: of a manifold edge the one that runs from the lower end first, of others ascending.
   std::span<const Index> edge_half_edges(Index e) const {
-    if (edge_kinds_[e] == EdgeKind::crowded) return crowd_of(e);
-    return {edge_sides_[e].data(), edge_kinds_[e] == EdgeKind::border ? 1u : 2u};
+    if (is_non_manifold_edge(e)) return crowd_of(e);
+    const auto& sides = edges_.sides[e];
+    if (!is_boundary(e)) return sides;
+    return {&sides[sides[0] == kNoIndex ? 1 : 0], 1};
   }
-  // Edges at v, ascending; corners at v, ascending.
+  // Edges and corners at v. Where the faces at v are one fan: counter-clockwise, corner k lying between the
+  // edges k and k + 1; a closed fan starts at its lowest corner, an open one at its border. At a non-manifold
+  // vertex both ascend.
   std::span<const Index> vertex_edges(Index v) const { return slice(vertex_edges_, vertex_edge_offsets_, v); }
   std::span<const Index> vertex_corners(Index v) const {
     return slice(vertex_corners_, vertex_corner_offsets_, v);
   }
 
-  bool is_boundary(Index e) const { return edge_kinds_[e] == EdgeKind::border; }
+  std::span<const EdgeKind> edge_kinds() const { return edges_.kinds; }
+  bool is_boundary(Index e) const { return edges_.kinds[e] == EdgeKind::border; }
   // More than two faces, or two that run along the edge in the same direction (their windings clash).
-  bool is_non_manifold_edge(Index e) const { return edge_kinds_[e] >= EdgeKind::clash; }
+  bool is_non_manifold_edge(Index e) const { return edges_.kinds[e] == EdgeKind::non_manifold; }
   // An end of a non-manifold edge, or a point where several fans of faces meet (a bow tie).
   bool is_non_manifold_vertex(Index v) const { return non_manifold_vertices_[v] != 0; }
+  std::span<const unsigned char> non_manifold_vertices() const { return non_manifold_vertices_; }
 
   // The half-edge on the other side of h, leaving the vertex that h enters; kNoIndex at a boundary or
   // non-manifold edge.
-  Index mate(Index h) const { return mates_[h]; }
+  Index mate(Index h) const {
+    const Index e = edges_.of_half_edges[h];
+    return edges_.kinds[e] == EdgeKind::manifold ? across(e, h) : kNoIndex;
+  }
 
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -87,41 +96,63 @@ class Topology {
     bool closed = false;
   };
   template <class Passable>
-  std::vector<Fan> fans(Index v, Passable passable) const;
+  std::vector<Fan> fans(Index v, Passable passable) const {
+    return is_non_manifold_vertex(v) ? scattered_fans(v, passable) : fans_of_one(v, passable);
+  }
 
  private:
-  enum class EdgeKind : unsigned char {
-    border,    // one face
-    manifold,  // two, of one winding
-    clash,     // two that run along the edge in the same direction
-    crowded,   // more
-  };
   static std::span<const Index> slice(const Buffer<Index>& items, const Buffer<Index>& offsets, Index k) {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
-  class Numbering;
-  Result<void> connect(const Budget& budget);
-  void join_edge(Index h, Index e);
+  Result<void> connect(std::span<const Index> first_corners, const Budget& budget);
+  Buffer<Index> count_corners();
   void gather_crowds();
-  void group_corners();
-  void group_edges();
-  void find_non_manifold_vertices();
-  bool is_one_fan(std::span<const Index> corners) const;
+  void count_edges();
+  Result<void> go_round_vertices(std::span<const Index> first_corners, const Budget& budget);
+  bool go_round(Index v, Index first_corner);
+  Count write_fan(Index v, Index start);
+  void list_non_manifold();
   std::span<const Index> crowd_of(Index e) const;
+  // The other of two half-edges along e; kNoIndex at a border.
+  Index across(Index e, Index h) const { return edges_.sides[e][0] ^ edges_.sides[e][1] ^ h; }
+  template <class Passable>
+  std::vector<Fan> fans_of_one(Index v, Passable passable) const;
+  template <class Passable>
+  std::vector<Fan> scattered_fans(Index v, Passable passable) const;
 
   Index vertex_count_ = 0;
   std::vector<Index> triangles_;
-  Buffer<Index> half_edge_edges_, mates_;
-  Buffer<std::array<Index, 2>> edge_vertices_, edge_sides_;  // sides: the two lowest half-edges
-  Buffer<EdgeKind> edge_kinds_;
+  Edges edges_;
   Buffer<Index> vertex_edges_, vertex_edge_offsets_, vertex_corners_, vertex_corner_offsets_;
   std::vector<unsigned char> non_manifold_vertices_;
-  std::vector<Index> crowded_edges_, crowd_half_edges_,
-      crowd_offsets_;  // ascending; of edges that are crowded
+  std::vector<Index> crowd_half_edges_, crowd_offsets_;  // of the non-manifold edges
 };
 
+// Cuts the fan that the vertex has at the edges that may not be passed.
 template <class Passable>
-std::vector<Topology::Fan> Topology::fans(Index v, Passable passable) const {
+std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable) const {
+  const auto corners = vertex_corners(v), edges = vertex_edges(v);
+  const bool closed = corners.size() == edges.size();
+  const std::size_t count = corners.size();
+  std::vector<Fan> result;
+  if (count == 0) return result;
+  // A closed fan is cut open at the first wall.
+  std::size_t start = 0;
+  if (closed) {
+    while (start < count && passable(edges[start])) ++start;
+    if (start == count) return {{{corners.begin(), corners.end()}, true}};
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = (start + k) % count;
+    if (k == 0 || !passable(edges[at])) result.emplace_back();
+    result.back().corners.push_back(corners[at]);
+  }
+  std::ranges::sort(result, {}, [](const Fan& fan) { return *std::ranges::min_element(fan.corners); });
+  return result;
+}
+
+template <class Passable>
+std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable) const {
   const auto corners = vertex_corners(v);
   // The corner before h, clockwise: across the edge of h.
   auto before = [&](Index h) {

@@ -8,25 +8,6 @@
 #include "core/refine/numbering.h"
 
 namespace subdivd {
-namespace {
-
-// The half-edge along a smooth or semi-sharp edge that runs from its lower end, and the other.
-std::array<Index, 2> sides_of(const Topology& topology, Index e) {
-  const auto sides = topology.edge_half_edges(e);
-  const bool forward = topology.corner_vertex(sides[0]) == topology.edge_vertices(e)[0];
-  return {sides[forward ? 0 : 1], sides[forward ? 1 : 0]};
-}
-
-// The six neighbours of point k inside edge e, counter-clockwise from the next point along the edge.
-std::array<Index, 6> neighbours(const Numbering& numbering, const std::array<Index, 2>& sides, Index e,
-                                Count k) {
-  const Count n = numbering.segment_count();
-  return {numbering.along(e, k + 1),         numbering.beside(sides[0], k),
-          numbering.beside(sides[0], k - 1), numbering.along(e, k - 1),
-          numbering.beside(sides[1], n - k), numbering.beside(sides[1], n - 1 - k)};
-}
-
-}  // namespace
 
 template <class Scheme, class Real>
 void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, const Real* from,
@@ -40,7 +21,7 @@ void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, co
   };
   const Numbering numbering(net_.topology(), level);
   const Count n = segments(level);
-  const auto sides = sides_of(net_.topology(), e);
+  const auto sides = net_.topology().edge_sides()[e];
   const auto at = [&](Count point) { return from + point * width_; };
   Real* out = to + (net_.topology().vertex_count() + e * (2 * n - 1)) * width_;
   for (Count k = 0; k < n; ++k) {
@@ -49,7 +30,7 @@ void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, co
                                        parent.segment(position, k - 1), 0, 0};
       const std::array<float, 6> sharp_next{child(2 * k), 0, 0, child(2 * k - 1), 0, 0};
       const VertexMask mask = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, sharp, sharp_next});
-      const auto around = neighbours(numbering, sides, e, k);
+      const auto around = numbering.ring_on_edge(e, k);
       const Real* here = at(numbering.along(e, k));
       for (Index c = 0; c < width_; ++c) {
         Real sum = static_cast<Real>(mask.self) * here[c];
@@ -84,7 +65,9 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
   const Count n = segments(level);
   const VertexMask mask = scheme_.crease_limit_mask(0, 1);
   const RingMask across = scheme_.crease_tangent_across(3);
-  const auto half_edges = net_.topology().edge_half_edges(e);
+  const auto along = net_.topology().edge_half_edges(e);
+  std::vector<Index> half_edges(along.begin(), along.end());
+  std::ranges::sort(half_edges);  // the lowest's side is the first
   const Index low = net_.topology().edge_vertices(e)[0];
   std::vector<Frame<Real>> frames(half_edges.size());
   for (Count k = 1; k < n; ++k) {
@@ -135,7 +118,6 @@ void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position
   const SemiSharp& semi = net_.semi_sharp(level);
   const Index e = semi.edges[position];
   const Numbering numbering(net_.topology(), level);
-  const auto sides = sides_of(net_.topology(), e);
   for (Count k = 1; k < segments(level); ++k) {
     const Index point = numbering.along(e, k);
     Ring<Real> ring;
@@ -144,7 +126,7 @@ void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position
       to.insert(to.end(), values + p * width_, values + (p + 1) * width_);
     };
     append(ring.center, point);
-    for (const Index p : neighbours(numbering, sides, e, k)) append(ring.neighbors, p);
+    for (const Index p : numbering.ring_on_edge(e, k)) append(ring.neighbors, p);
     ring.edge_sharpness =
         ring.around = {semi.segment(position, k), 0, 0, semi.segment(position, k - 1), 0, 0};
     ring.in_mesh = {0, 1, 2, 3, 4, 5};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "core/mesh/positions.h"
 #include "core/refine/split.h"
 
 namespace subdivd {
@@ -54,8 +55,8 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
   return found;
 }
 
-// Every edge's neighbour in ascending order of the edges, then the crease, then the vertex itself: the order
-// of the plain engine, to the bit.
+// Every edge's neighbour in the order of the edges around v, then the crease, then the vertex itself: the
+// order of the plain engine, to the bit.
 template <class Scheme, class Real>
 template <class Width>
 void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out,
@@ -173,7 +174,8 @@ template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::smooth_frame(Count n, const Real* values, Index v,
                                               Frame<Real>& frame) const {
   const Topology& topology = net_.topology();
-  const auto valence = static_cast<Index>(topology.vertex_edges(v).size());
+  const auto edges = topology.vertex_edges(v);
+  const auto valence = static_cast<Index>(edges.size());
   const bool listed = valence <= Net::kListedValence;
   RingMask own_u, own_v;
   if (!listed) {
@@ -181,16 +183,14 @@ void BaseVertices<Scheme, Real>::smooth_frame(Count n, const Real* values, Index
     own_v = scheme_.smooth_tangent_v(valence);
   }
   const Real* center = values + std::size_t{3} * v;
-  Index h = topology.vertex_corners(v)[0];
   for (Index k = 0; k < valence; ++k) {
-    const Real* at = values + 3 * beside(n, topology.half_edge_edge(h), v);
+    const Real* at = values + 3 * beside(n, edges[k], v);
     const Real weight_u = listed ? table_[valence].tangent_u[k] : static_cast<Real>(own_u.edges[k]);
     const Real weight_v = listed ? table_[valence].tangent_v[k] : static_cast<Real>(own_v.edges[k]);
     for (int c = 0; c < 3; ++c) {
       frame.u[c] += weight_u * (at[c] - center[c]);
       frame.v[c] += weight_v * (at[c] - center[c]);
     }
-    h = topology.mate(Topology::prev(h));
   }
 }
 
@@ -216,11 +216,11 @@ Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Ind
   const Net& mesh = net_.mesh();
   const Index mesh_vertex = mesh.topology().corner_vertex(topology.vertex_corners(v)[0]);
   const auto around = mesh.topology().vertex_edges(mesh_vertex);
+  const Positions in_around(around);
   for (const Index e : around) ring.around.push_back(mesh.sharpness_beside(level, e, mesh_vertex));
   for (const Index e : topology.vertex_edges(v)) {
     const Index in_mesh = mesh.topology().half_edge_edge(topology.edge_half_edges(e)[0]);
-    ring.in_mesh.push_back(
-        static_cast<std::size_t>(std::ranges::lower_bound(around, in_mesh) - around.begin()));
+    ring.in_mesh.push_back(in_around(in_mesh));
     ring.far_child.push_back(net_.sharpness_far(level, e, v));
   }
   return ring;

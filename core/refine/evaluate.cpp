@@ -11,6 +11,7 @@
 #include "core/refine/base_edges.h"
 #include "core/refine/base_vertices.h"
 #include "core/refine/kernels/tri_step.h"
+#include "core/refine/numbering.h"
 
 namespace subdivd {
 namespace {
@@ -27,13 +28,22 @@ constexpr Count kLargeFace = 1 << 18;  // points inside a face that is taken in 
 static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
               "the kernels know the rules by number");
 
-// The frame of a regular point whose tangents are too close to parallel, too long or too short for the short
-// way.
+// What a frame of a regular point is made of: see TriLimit::robust_frame.
+template <class Real>
+struct LevelOfNet {
+  const Topology& topology;
+  Index level;
+  const Real* values;
+};
+
 template <class Scheme, class Real>
-void robust_frame(const Real (*points)[4], Real* u, Real* v, Real* normal) {
+void robust_frame(const void* context, Count vertex, Real* u, Real* v, Real* normal) {
+  const auto& net = *static_cast<const LevelOfNet<Real>*>(context);
   Ring<Real> ring;
-  ring.center.assign(points[0], points[0] + 3);
-  for (int k = 1; k < 7; ++k) ring.neighbors.insert(ring.neighbors.end(), points[k], points[k] + 3);
+  ring.center.assign(net.values + 3 * vertex, net.values + 3 * vertex + 3);
+  for (const Index neighbour : Numbering(net.topology, net.level).regular_ring(static_cast<Index>(vertex)))
+    ring.neighbors.insert(ring.neighbors.end(), net.values + Count{3} * neighbour,
+                          net.values + Count{3} * neighbour + 3);
   ring.edge_sharpness.assign(6, 0.0f);
   ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
   ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
@@ -77,6 +87,7 @@ class Evaluation {
     set_size(control_, control.size());
     std::ranges::copy(control, control_.begin());
     if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
+    level_of_net_.values = values_at(level);
   }
 
   Result<void> run(Index threads, const Budget& budget) {
@@ -228,7 +239,8 @@ class Evaluation {
                          out_.tangents_u,
                          out_.tangents_v,
                          out_.normals,
-                         &robust_frame<Scheme, Real>};
+                         &robust_frame<Scheme, Real>,
+                         &level_of_net_};
     if (linear_) {
       limit.self = 1;
     } else {
@@ -293,6 +305,7 @@ class Evaluation {
   std::vector<unsigned char> linear_rules_;
   std::array<Buffer<Real>, 2> scratch_;
   Buffer<Real> own_values_;
+  LevelOfNet<Real> level_of_net_{net_.topology(), level_, nullptr};
   std::vector<std::vector<std::pair<FaceRow, FaceRow>>> deferred_;  // per worker
 };
 

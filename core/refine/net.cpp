@@ -4,10 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "core/mesh/scan.h"
+
 namespace subdivd {
 namespace {
-
-constexpr Index kStepsPerPoll = 1 << 18;
 
 // Position of `item` in an ascending list; its size when it is not there.
 std::size_t position(const std::vector<Index>& list, Index item) {
@@ -65,18 +65,13 @@ Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, cons
   const auto side = [](const Topology& topology, Index h) {
     return topology.edge_vertices(topology.half_edge_edge(h))[0] == topology.corner_vertex(h);
   };
-  for (Index e = 0; e < net.topology_.edge_count(); ++e) {
-    if (!is_semi_sharp(net.sharpness_.edges[e])) continue;
+  base.edges = std::move(net.semi_sharp_edges_);
+  for (const Index e : base.edges) {
     const Index h = net.topology_.edge_half_edges(e)[0];
     pairs.push_back({position(mesh.semi_sharp(0).edges, mesh.topology_.half_edge_edge(h)),
                      side(net.topology_, h) != side(mesh.topology_, h)});
-    base.edges.push_back(e);
   }
-  for (Index v = 0; v < net.topology_.vertex_count(); ++v)
-    if (is_semi_sharp(net.sharpness_.vertices[v])) {
-      base.vertices.push_back(v);
-      base.vertex_sharpness.push_back(net.sharpness_.vertices[v]);
-    }
+  net.list_semi_sharp_vertices(base);
   for (Index level = 0; level <= net.max_level_ + 1; ++level) {
     const SemiSharp& from = mesh.semi_sharp(level);
     SemiSharp to;
@@ -129,49 +124,50 @@ float Net::sharpness_far(Index level, Index e, Index v) const {
 }
 
 Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
-  const Index vertices = topology_.vertex_count(), edges = topology_.edge_count();
-  vertex_rules_.resize(vertices);
-  edge_rules_.resize(edges);
-  std::vector<unsigned char> infinite(vertices, 0);  // infinitely sharp edges at the vertex, at most 3
-  for (Index e = 0; e < edges; ++e) {
-    if (e % kStepsPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    const float sharpness = sharpness_.edges[e];
-    const bool sharp = is_infinite(sharpness);
-    if (is_semi_sharp(sharpness)) semi_sharp_edges_.push_back(e);
-    edge_rules_[e] = linear_ || (linear_borders && topology_.is_boundary(e)) ? EdgeRule::linear
-                     : sharp                                                 ? EdgeRule::crease
-                                                                             : EdgeRule::smooth;
-    if (sharp)
-      for (const Index v : topology_.edge_vertices(e))
-        infinite[v] = std::min<unsigned char>(infinite[v] + 1, 3);
-  }
+  const Index vertices = topology_.vertex_count();
+  vertex_rules_.assign(vertices, linear_ ? VertexRule::corner : VertexRule::smooth);
+  edge_rules_.assign(topology_.edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
+  if (linear_) return {};
+  // Infinitely sharp edges turn a smooth vertex into a dart, a crease, a corner.
+  for_each_set(std::span(std::as_const(sharpness_.edges)), [&](std::size_t k) {
+    const auto e = static_cast<Index>(k);
+    if (!is_infinite(sharpness_.edges[e])) {
+      semi_sharp_edges_.push_back(e);
+      return;
+    }
+    edge_rules_[e] = linear_borders && topology_.is_boundary(e) ? EdgeRule::linear : EdgeRule::crease;
+    for (const Index v : topology_.edge_vertices(e))
+      vertex_rules_[v] = static_cast<VertexRule>(
+          std::min(static_cast<int>(vertex_rules_[v]) + 1, static_cast<int>(VertexRule::corner)));
+  });
+  if (auto stop = budget.poll()) return *stop;
+  for_each_set(std::span(std::as_const(sharpness_.vertices)), [&](std::size_t v) {
+    if (is_infinite(sharpness_.vertices[v])) vertex_rules_[v] = VertexRule::corner;
+  });
   std::array<bool, kListedValence + 1> present{};
   for (Index v = 0; v < vertices; ++v) {
     const std::size_t valence = topology_.vertex_corners(v).size();
-    if (linear_ || valence == 0 || is_infinite(sharpness_.vertices[v]) || infinite[v] > 2) {
-      vertex_rules_[v] = VertexRule::corner;
-    } else if (infinite[v] == 2) {
-      vertex_rules_[v] = VertexRule::crease;
-    } else {
-      vertex_rules_[v] = infinite[v] == 1 ? VertexRule::dart : VertexRule::smooth;
-      if (valence <= kListedValence) present[valence] = true;
-    }
+    if (valence == 0) vertex_rules_[v] = VertexRule::corner;
+    if (vertex_rules_[v] <= VertexRule::dart && valence <= kListedValence) present[valence] = true;
   }
   for (Index n = 0; n <= kListedValence; ++n)
     if (present[n]) valences_.push_back(n);
   return {};
 }
 
+void Net::list_semi_sharp_vertices(SemiSharp& base) const {
+  for_each_set(std::span(sharpness_.vertices), [&](std::size_t v) {
+    if (!is_semi_sharp(sharpness_.vertices[v])) return;
+    base.vertices.push_back(static_cast<Index>(v));
+    base.vertex_sharpness.push_back(sharpness_.vertices[v]);
+  });
+}
+
 Result<void> Net::decay_all(const Budget& budget) {
   SemiSharp base;
   base.edges = std::move(semi_sharp_edges_);
   for (const Index e : base.edges) base.segments.push_back(sharpness_.edges[e]);
-  for (Index v = 0; v < topology_.vertex_count(); ++v)
-    if (is_semi_sharp(sharpness_.vertices[v])) {
-      base.vertices.push_back(v);
-      base.vertex_sharpness.push_back(sharpness_.vertices[v]);
-    }
+  list_semi_sharp_vertices(base);
   while (!base.empty() && levels_.size() <= max_level_ + 1) {
     if (auto stop = budget.poll()) return *stop;
     levels_.push_back(std::move(base));

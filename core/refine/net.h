@@ -83,6 +83,7 @@ class Net {
 
  private:
   Result<void> set_rules(bool linear_borders, const Budget& budget);
+  void list_semi_sharp_vertices(SemiSharp& base) const;
   void list_unsettled();
   Result<void> decay_all(const Budget& budget);
   SemiSharp decayed(const SemiSharp& level, Index index) const;

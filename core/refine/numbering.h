@@ -1,6 +1,8 @@
 #pragma once
 // The number of every refined vertex from its place on a base face: see split.h for the formula.
 
+#include <array>
+
 #include "core/base/index.h"
 #include "core/mesh/topology.h"
 #include "core/refine/split.h"
@@ -32,6 +34,30 @@ class Numbering {
     if (k == 0) return topology_->edge_vertices(e)[0];
     if (k == n_) return topology_->edge_vertices(e)[1];
     return static_cast<Index>(edge_begin_ + e * (n_ - 1) + k - 1);
+  }
+
+  // The six neighbours of point k inside an edge of two faces, counter-clockwise from the next point along
+  // the edge.
+  std::array<Index, 6> ring_on_edge(Index e, Count k) const {
+    const auto [left, right] = topology_->edge_sides()[e];
+    return {along(e, k + 1), beside(left, k),       beside(left, k - 1),
+            along(e, k - 1), beside(right, n_ - k), beside(right, n_ - 1 - k)};
+  }
+
+  // Those of any vertex inside a base face, or inside a base edge of two faces.
+  std::array<Index, 6> regular_ring(Index vertex) const {
+    if (vertex < face_begin_) {
+      const Count from_first = vertex - edge_begin_;
+      return ring_on_edge(static_cast<Index>(from_first / (n_ - 1)), from_first % (n_ - 1) + 1);
+    }
+    const Count from_first = vertex - face_begin_;
+    const auto face = static_cast<Index>(from_first / inner_points(n_));
+    const Count inner = from_first % inner_points(n_);
+    Count j = 1;
+    while (inner_index(n_, 1, j + 1) <= inner && j + 2 < n_) ++j;
+    const Count i = inner - inner_index(n_, 1, j) + 1;
+    return {this->vertex(face, i + 1, j), this->vertex(face, i, j + 1), this->vertex(face, i - 1, j + 1),
+            this->vertex(face, i - 1, j), this->vertex(face, i, j - 1), this->vertex(face, i + 1, j - 1)};
   }
 
   // The row of points next to half-edge h and parallel to it, in h's direction: p = 0..n-1. Point p and the

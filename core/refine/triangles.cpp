@@ -32,8 +32,7 @@ std::vector<unsigned char> pattern_of(Count n) {
 
 class FaceWriter {
  public:
-  FaceWriter(const Topology& topology, Index level)
-      : topology_(topology), n_(segments(level)), low_(n_ + 1), high_(n_ + 1) {
+  FaceWriter(const Topology& topology, Index level) : topology_(topology), n_(segments(level)) {
     if (n_ <= kPatternSegments) pattern_ = pattern_of(n_);
   }
 
@@ -76,71 +75,79 @@ class FaceWriter {
   Index right(const FaceNumbers& numbers, Count j) const {
     return j == n_ ? numbers.corner[2] : numbers.side[1] + static_cast<Index>(j - 1) * numbers.step[1];
   }
-  void set_row(const FaceNumbers& numbers, Count j, std::vector<Index>& row) const {
-    if (j == 0) {
-      for (Count i = 0; i <= n_; ++i) row[i] = on_bottom(numbers, i);
-      return;
-    }
-    row[0] = left(numbers, j);
-    const auto first = static_cast<Index>(numbers.inside + inner_index(n_, 1, j));
-    for (Count i = 1; i + j < n_; ++i) row[i] = first + static_cast<Index>(i - 1);
-    row[n_ - j] = right(numbers, j);
+  // Row j's points are left, first, first + step, ..., right.
+  struct Row {
+    Index left, first, step, right;
+  };
+  Row row(const FaceNumbers& numbers, Count j) const {
+    if (j == 0) return {numbers.corner[0], numbers.side[0], numbers.step[0], numbers.corner[1]};
+    return {left(numbers, j), static_cast<Index>(numbers.inside + inner_index(n_, 1, j)), 1,
+            right(numbers, j)};
   }
 
   void write_by_rows(const FaceNumbers& numbers, Index* out) {
-    set_row(numbers, 0, low_);
+    Row low = row(numbers, 0);
     for (Count j = 0; j < n_; ++j) {
-      set_row(numbers, j + 1, high_);
-      out = write_row(low_.data(), high_.data(), n_ - j, out);
-      low_.swap(high_);
+      const Row high = row(numbers, j + 1);
+      out = write_row(low, high, n_ - j, out);
+      low = high;
     }
   }
 
   // Triangles between a row of m segments and the one above it: two by two, (low i, low i+1, high i) and
   // (low i+1, high i+1, high i), and one more at the end.
-  static Index* write_row(const Index* low, const Index* high, Count m, Index* out) {
-    const auto square = [&](Count i) {
-      const Index six[6] = {low[i], low[i + 1], high[i], low[i + 1], high[i + 1], high[i]};
+  static Index* write_row(const Row& low, const Row& high, Count m, Index* out) {
+    const auto square = [&](Index l0, Index l1, Index h0, Index h1) {
+      const Index six[6] = {l0, l1, h0, l1, h1, h0};
       std::memcpy(out, six, sizeof six);
       out += 6;
     };
-    Count i = 0;
-    if (m > 2 * kRun && low[1] + 1 == low[2]) {
-      square(i++);
-      i += write_runs(low[i], high[i], (m - 2 - i) / kRun, out);
+    const auto last = static_cast<Index>(m) - 2;  // the square at the end of the row
+    const Index low_last = low.first + last * low.step;
+    if (m == 1) {
+      out = std::copy_n(std::array{low.left, low.right, high.left}.begin(), 3, out);
+      return out;
     }
-    for (; i + 1 < m; ++i) square(i);
-    *out++ = low[m - 1];
-    *out++ = low[m];
-    *out++ = high[m - 1];
-    return out;
+    if (m == 2) {
+      square(low.left, low.first, high.left, high.right);
+    } else {
+      square(low.left, low.first, high.left, high.first);
+      out = write_squares(low.first, low.step, high.first, last - 1, out);
+      square(low_last - low.step, low_last, high.first + last - 1, high.right);
+    }
+    return std::copy_n(std::array{low_last, low.right, high.right}.begin(), 3, out);
   }
 
-  // Inside a row numbers follow one another, so all that is stored is a pattern that grows by one a square:
-  // `runs` times kRun squares from low number `a` and high number `b` on. Returns the number of squares.
-  static constexpr Count kRun = 4;
-  static Count write_runs(Index a, Index b, Count runs, Index*& out) {
+  // Inside a row numbers follow one another, so all that is stored is a pattern that grows by one (on the
+  // bottom row, perhaps downwards) a square. Writes up to 3 squares too many: there is more to come of the
+  // face behind them, which is written later.
+  static Index* write_squares(Index a, Index a_step, Index b, Index count, Index* out) {
+    constexpr Index kRun = 4;
     using Four = Index __attribute__((vector_size(16)));
-    Index first[6 * kRun];
+    Index first[6 * kRun], grow[6 * kRun];
     for (Index i = 0; i < kRun; ++i) {
-      const Index six[6] = {a + i, a + i + 1, b + i, a + i + 1, b + i + 1, b + i};
-      std::memcpy(first + 6 * i, six, sizeof six);
-    }
-    Four pattern[6];
-    std::memcpy(pattern, first, sizeof pattern);
-    for (Count run = 0; run < runs; ++run)
-      for (Four& four : pattern) {
-        std::memcpy(out, &four, sizeof four);
-        out += 4;
-        four += Index{kRun};
+      const Index a0 = a + i * a_step, a1 = a0 + a_step, b0 = b + i, b1 = b0 + 1;
+      const Index six[6] = {a0, a1, b0, a1, b1, b0};
+      const Index steps[6] = {a_step, a_step, 1, a_step, 1, 1};
+      for (Index k = 0; k < 6; ++k) {
+        first[6 * i + k] = six[k];
+        grow[6 * i + k] = kRun * steps[k];
       }
-    return runs * kRun;
+    }
+    Four pattern[6], growth[6];
+    std::memcpy(pattern, first, sizeof pattern);
+    std::memcpy(growth, grow, sizeof growth);
+    for (Index done = 0; done < count; done += kRun, out += 6 * kRun)
+      for (int k = 0; k < 6; ++k) {
+        std::memcpy(out + 4 * k, &pattern[k], sizeof pattern[k]);
+        pattern[k] += growth[k];
+      }
+    return out - 6 * ((kRun - count % kRun) % kRun);
   }
 
   const Topology& topology_;
   Count n_;
   std::vector<unsigned char> pattern_;
-  std::vector<Index> low_, high_;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct TriStep {
   const Index* triangles;        // 3 per face
   const Index* half_edge_edges;  // 3 per face
   const Index* edge_vertices;    // 2 per edge, the lower first
-  const Index* edge_sides;       // 2 per edge: the half-edges along it (two of smooth edges)
+  const Index* edge_sides;       // 2 per edge: the half-edge that runs from the lower end, and the other
   const unsigned char* edge_rules;
   Index vertex_count, edge_count;
   Count n;
@@ -38,9 +38,10 @@ struct TriLimit {
   TriStep<Real> level;                      // `from`, n: the level; `to`: where limits go, may be null
   Real self, each;                          // limit mask, valence 6
   Real *tangents_u, *tangents_v, *normals;  // may be null
-  // Sets the frame of a point whose tangents single precision arithmetic cannot tell apart, from its ring:
-  // the point and its six neighbours counter-clockwise, 3 scalars each and one to spare.
-  void (*robust_frame)(const Real (*ring)[4], Real* u, Real* v, Real* normal);
+  // Sets the frame of a point whose tangents are too close to parallel, too long or too short for the short
+  // way. `context` is handed through.
+  void (*robust_frame)(const void* context, Count vertex, Real* u, Real* v, Real* normal);
+  const void* context;
 };
 
 // Rows [row, ...) of the faces from `face` on.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {
@@ -80,6 +83,65 @@ TEST(Topology, an_unreferenced_point_has_neither_edges_nor_corners) {
   EXPECT_FALSE(topology.is_non_manifold_vertex(3));
 }
 
+// A fan around point 0 whose faces are listed at random: `rim` points 1.., closed or open.
+std::vector<Index> fan_of(Index rim, bool closed) {
+  std::vector<std::array<Index, 3>> faces;
+  for (Index k = 1; k < rim + closed; ++k) faces.push_back({0, k, k % rim + 1});
+  std::mt19937 random(rim);
+  std::ranges::shuffle(faces, random);
+  std::vector<Index> triangles;
+  for (const auto& face : faces) triangles.insert(triangles.end(), face.begin(), face.end());
+  return triangles;
+}
+
+TEST(Topology, corners_and_edges_go_round_a_manifold_vertex) {
+  // Up to a few edges a point keeps them in one place, further ones in another, a hub in none.
+  for (const Index rim : {3u, 7u, 8u, 9u, 20u, 64u, 65u, 66u, 1000u})
+    for (const bool closed : {false, true}) {
+      const Topology topology(rim + 1, fan_of(rim, closed));
+      const auto corners = topology.vertex_corners(0), edges = topology.vertex_edges(0);
+      ASSERT_FALSE(topology.is_non_manifold_vertex(0));
+      ASSERT_EQ(corners.size(), rim - !closed);
+      ASSERT_EQ(edges.size(), rim);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        EXPECT_EQ(topology.half_edge_edge(corners[k]), edges[k]);
+        EXPECT_EQ(topology.half_edge_edge(Topology::prev(corners[k])), edges[(k + 1) % rim]);
+      }
+      if (closed) {
+        EXPECT_EQ(corners[0], *std::ranges::min_element(corners));
+      } else {
+        EXPECT_EQ(topology.other_end(edges[0], 0), 1u);
+      }
+      // Only the spokes lead to point 0, and the rim closes: every edge was found once.
+      EXPECT_EQ(topology.edge_count(), 2 * rim - !closed);
+    }
+}
+
+TEST(Topology, edges_between_hubs_are_found_once) {
+  // Two hubs and a hundred points between them: every face has the edge of the hubs.
+  std::vector<Index> triangles;
+  for (Index k = 0; k < 100; ++k)
+    for (const Index v : {k % 2, 1 - k % 2, k + 2}) triangles.push_back(v);
+  const Topology topology(102, triangles);
+  ASSERT_EQ(topology.edge_count(), 201u);
+  EXPECT_EQ(topology.edge_half_edges(topology.half_edge_edge(0)).size(), 100u);
+}
+
+TEST(Topology, finds_a_closed_and_an_open_fan_at_one_vertex) {
+  // A tetrahedron and a triangle that touch in point 0, the triangle's corner first and last.
+  for (const bool first : {false, true}) {
+    std::vector<Index> triangles{0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+    triangles.insert(first ? triangles.begin() : triangles.end(), {0, 4, 5});
+    const Topology topology(6, triangles);
+    EXPECT_TRUE(topology.is_non_manifold_vertex(0));
+    EXPECT_TRUE(std::ranges::is_sorted(topology.vertex_corners(0)));
+    EXPECT_TRUE(std::ranges::is_sorted(topology.vertex_edges(0)));
+    EXPECT_EQ(topology.vertex_corners(0).size(), 4u);
+    EXPECT_EQ(topology.vertex_edges(0).size(), 5u);
+    EXPECT_FALSE(topology.is_non_manifold_vertex(1));
+  }
+}
+
 TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
@@ -94,8 +156,7 @@ TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
         }
         seen.insert(seen.end(), fan.corners.begin(), fan.corners.end());
       }
-      std::ranges::sort(seen);
-      ASSERT_TRUE(std::ranges::equal(seen, topology.vertex_corners(v)));
+      ASSERT_TRUE(std::ranges::is_permutation(seen, topology.vertex_corners(v)));
     }
   }
 }

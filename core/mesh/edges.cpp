@@ -1,0 +1,224 @@
+#include "core/mesh/edges.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace subdivd {
+namespace {
+
+// Between two polls of the budget.
+constexpr Index kFacesPerPoll = 1 << 18;
+
+// A vertex of more corners keeps no edges: a hub of a million edges must not cost a million steps for each.
+constexpr Index kMostCorners = 64;
+
+// Every edge is kept at one of its ends, its home: the lower-numbered one, unless that is a hub. A home has
+// slots in one cache line, and the other end's number says in which to look first. There is no jump that
+// depends on whether a half-edge is the first along its edge or the second: that is a coin toss.
+class EdgeFinder {
+ public:
+  EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets)
+      : triangles_(triangles), corner_offsets_(corner_offsets), homes_(vertex_count), used_(vertex_count, 0) {
+    edges_.of_half_edges.resize(triangles.size());
+    // Room for as many borders as most meshes have.
+    make_room(triangles.size() / 2 + triangles.size() / 16 + kPerFace);
+  }
+
+  Result<Edges> run(const Budget& budget) {
+    mark_hubs();
+    constexpr Index kStride = 3 * kFacesPerPoll;
+    const auto end = static_cast<Index>(triangles_.size());
+    for (Index begin = 0; begin < end; begin += std::min(kStride, end - begin)) {
+      if (auto stop = budget.poll()) return *stop;
+      join_faces(begin, begin + std::min(kStride, end - begin));
+    }
+    make_room(count_);
+    edges_.set_kinds();
+    return std::move(edges_);
+  }
+
+ private:
+  static constexpr Index kPerFace = 3;
+  static constexpr unsigned kSlots = 8;
+  struct Slot {
+    Index far, edge;  // far: the edge's other end
+  };
+  struct alignas(64) Home {
+    Slot slots[kSlots];
+  };
+  static constexpr unsigned kAllUsed = 0xff;
+
+  static unsigned first_slot(Index far) { return far * 0x9e3779b1u >> 29; }
+
+  void make_room(Count edges) {
+    edges_.vertices.resize(edges);
+    edges_.sides.resize(edges);
+  }
+
+  // Half-edges [begin, end).
+  void join_faces(Index begin, Index end) {
+    for (Index h = begin; h < end;) {
+      // Arrays by their addresses and the count in a register: the compiler cannot know that what is written
+      // to the ones changes none of the others.
+      const Fast fast{triangles_.data(),           homes_.data(),          used_.data(),
+                      edges_.of_half_edges.data(), edges_.vertices.data(), edges_.sides.data()};
+      const Count room = edges_.vertices.size() - kPerFace;
+      Index count = count_;
+      for (; h < end && count <= room; h += kPerFace) {
+        const Index a = fast.triangles[h], b = fast.triangles[h + 1], c = fast.triangles[h + 2];
+        count = join(fast, count, h, a, b);
+        count = join(fast, count, h + 1, b, c);
+        count = join(fast, count, h + 2, c, a);
+      }
+      count_ = count;
+      if (count > room) make_room(edges_.vertices.size() * 3 / 2 + kPerFace);
+    }
+  }
+
+  struct Fast {
+    const Index* triangles;
+    Home* homes;
+    unsigned char* used;
+    Index* of_half_edges;
+    std::array<Index, 2>*vertices, *sides;
+  };
+  // Half-edge h runs from a to b; returns the number of edges after it. Choices are made by masks, for the
+  // compiler would make them by jumps.
+  [[gnu::always_inline]] inline Index join(const Fast& fast, Index count, Index h, Index a, Index b) {
+    const Index down = a > b ? ~Index{0} : 0, low = a ^ ((a ^ b) & down), high = a ^ b ^ low;
+    const unsigned used = fast.used[low];
+    unsigned at = first_slot(high);
+    Slot* slot = &fast.homes[low].slots[at];
+    // One in eight or so is taken by another edge.
+    const auto other = static_cast<unsigned>(slot->far != high);
+    if ((used >> at & other) != 0) [[unlikely]] {
+      if (!next_slot(fast.homes[low], used, high, at)) return join_elsewhere(count, h, a, low, high);
+      slot = &fast.homes[low].slots[at];
+    }
+    const Index found = 0 - (used >> at & 1);  // all bits or none
+    // As if the edge were new; if it is not, the next new one overwrites this.
+    fast.vertices[count] = {low, high};
+    fast.sides[count] = {kNoIndex, kNoIndex};
+    const Index e = (slot->edge & found) | (count & ~found);
+    Index& side = fast.sides[e][down & 1];
+    fast.of_half_edges[h] = e;
+    if (side != kNoIndex) [[unlikely]] {
+      edges_.non_manifold.push_back(e);
+      return count;
+    }
+    side = h;
+    *slot = {high, e};
+    fast.used[low] = static_cast<unsigned char>(used | 1u << at);
+    return count + 1 + found;
+  }
+
+  // Steps on to the edge's slot or to a free one; false when there is neither.
+  static bool next_slot(const Home& home, unsigned used, Index far, unsigned& at) {
+    for (unsigned k = 0; k < kSlots; ++k, at = (at + 1) % kSlots)
+      if ((used >> at & 1) == 0 || home.slots[at].far == far) return true;
+    return false;
+  }
+
+  // The home has no slot left, or is a hub.
+  Index join_elsewhere(Index count, Index h, Index from, Index low, Index high) {
+    count_ = count;
+    const Index e = edge_elsewhere(h, low, high);
+    if (e == count) {
+      edges_.vertices[e] = {low, high};
+      edges_.sides[e] = {kNoIndex, kNoIndex};
+      ++count;
+    }
+    edges_.of_half_edges[h] = e;
+    edges_.attach(h, from, e);
+    return count;
+  }
+  Index edge_elsewhere(Index h, Index low, Index high) {
+    if (!is_hub(low)) return edge_at(low, high);
+    if (!is_hub(high)) return edge_at(high, low);
+    const HubEdge& edge = between_hubs_[next_between_hubs_++];  // half-edges come in ascending order
+    return edge.first == h ? count_ : edges_.of_half_edges[edge.first];
+  }
+  Index edge_at(Index home, Index far) {
+    if (unsigned at = first_slot(far); next_slot(homes_[home], used_[home], far, at)) {
+      Slot& slot = homes_[home].slots[at];
+      if ((used_[home] >> at & 1) == 0) slot = {far, count_};
+      used_[home] = static_cast<unsigned char>(used_[home] | 1u << at);
+      return slot.edge;
+    }
+    if (chains_.empty()) chains_.assign(homes_.size(), kNoIndex);
+    for (Index k = chains_[home]; k != kNoIndex; k = more_[k].next)
+      if (more_[k].far == far) return more_[k].edge;
+    more_.push_back({far, count_, chains_[home]});
+    chains_[home] = static_cast<Index>(more_.size() - 1);
+    return count_;
+  }
+
+  bool is_hub(Index v) const { return corner_offsets_[v + 1] - corner_offsets_[v] > kMostCorners; }
+  // A hub's slots are all taken, by edges to nowhere.
+  void mark_hubs() {
+    Count hubs = 0;
+    for (Index v = 0; v < used_.size(); ++v) {
+      if (!is_hub(v)) continue;
+      used_[v] = kAllUsed;
+      for (Slot& slot : homes_[v].slots) slot = {kNoIndex, kNoIndex};
+      ++hubs;
+    }
+    if (hubs > 1) sort_between_hubs();
+  }
+  void sort_between_hubs() {
+    for (Index h = 0; h < triangles_.size(); ++h) {
+      const Index a = triangles_[h], b = triangles_[h % 3 == 2 ? h - 2 : h + 1];
+      if (is_hub(a) && is_hub(b)) between_hubs_.push_back({std::min(a, b), std::max(a, b), h, h});
+    }
+    std::ranges::sort(between_hubs_, {},
+                      [](const HubEdge& x) { return std::tuple(x.low, x.high, x.half_edge); });
+    for (std::size_t k = 1; k < between_hubs_.size(); ++k)
+      if (between_hubs_[k].low == between_hubs_[k - 1].low &&
+          between_hubs_[k].high == between_hubs_[k - 1].high)
+        between_hubs_[k].first = between_hubs_[k - 1].first;
+    std::ranges::sort(between_hubs_, {}, &HubEdge::half_edge);
+  }
+
+  std::span<const Index> triangles_, corner_offsets_;
+  Edges edges_;
+  Index count_ = 0;
+  Buffer<Home> homes_;               // per vertex
+  std::vector<unsigned char> used_;  // per vertex: a bit for every slot that is taken
+  struct More {
+    Index far, edge, next;
+  };
+  std::vector<Index> chains_;  // per vertex, once one has more edges than slots: the last of them in more_
+  std::vector<More> more_;
+  struct HubEdge {
+    Index low, high, half_edge, first;  // first: the lowest half-edge along the same edge
+  };
+  std::vector<HubEdge> between_hubs_;  // ascending half-edges
+  std::size_t next_between_hubs_ = 0;
+};
+
+}  // namespace
+
+void Edges::attach(Index h, Index from, Index e) {
+  Index& side = sides[e][from == vertices[e][0] ? 0 : 1];
+  if (side == kNoIndex)
+    side = h;
+  else
+    non_manifold.push_back(e);
+}
+
+void Edges::set_kinds() {
+  kinds.resize(sides.size());
+  std::ranges::transform(sides, kinds.begin(), [](const std::array<Index, 2>& side) {
+    return side[0] == kNoIndex || side[1] == kNoIndex ? EdgeKind::border : EdgeKind::manifold;
+  });
+  std::ranges::sort(non_manifold);
+  non_manifold.erase(std::unique(non_manifold.begin(), non_manifold.end()), non_manifold.end());
+  for (const Index e : non_manifold) kinds[e] = EdgeKind::non_manifold;
+}
+
+Result<Edges> find_edges(Index vertex_count, std::span<const Index> triangles,
+                         std::span<const Index> corner_offsets, const Budget& budget) {
+  return EdgeFinder(vertex_count, triangles, corner_offsets).run(budget);
+}
+
+}  // namespace subdivd

@@ -1,0 +1,43 @@
+#pragma once
+// The edges of a triangle mesh: which half-edges (topology.h) run along the same one.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/base/budget.h"
+#include "core/base/buffer.h"
+#include "core/base/index.h"
+#include "core/base/result.h"
+
+namespace subdivd {
+
+enum class EdgeKind : unsigned char {
+  manifold,      // two faces, of one winding: they run along the edge in opposite directions
+  border,        // one face
+  non_manifold,  // more, or two that run along the edge in the same direction
+};
+
+struct Edges {
+  Buffer<Index> of_half_edges;
+  Buffer<std::array<Index, 2>> vertices;  // ends, the lower-numbered first
+  // The lowest half-edge that runs from the lower end, and the lowest from the higher; kNoIndex: none.
+  Buffer<std::array<Index, 2>> sides;
+  Buffer<EdgeKind> kinds;
+  std::vector<Index> non_manifold;  // the edges of that kind, ascending
+
+  Index count() const { return static_cast<Index>(vertices.size()); }
+  // Half-edge h, the highest so far, leaves vertex `from` along edge e, whose sides were kNoIndex in the
+  // beginning.
+  void attach(Index h, Index from, Index e);
+  // When all are attached.
+  void set_kinds();
+};
+
+// Edges are numbered in the order in which the faces, corner by corner, first run along them. Row v of
+// `corner_offsets` is as long as v has corners. Linear time, but edges between two vertices of more than 64
+// corners each are sorted. Stops when the budget is polled dry.
+Result<Edges> find_edges(Index vertex_count, std::span<const Index> triangles,
+                         std::span<const Index> corner_offsets, const Budget& budget);
+
+}  // namespace subdivd
