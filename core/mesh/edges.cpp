@@ -18,7 +18,9 @@ constexpr Index kMostCorners = 64;
 class EdgeFinder {
  public:
   EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets)
-      : triangles_(triangles), corner_offsets_(corner_offsets), homes_(vertex_count), used_(vertex_count, 0) {
+      : triangles_(triangles), corner_offsets_(corner_offsets), homes_(vertex_count) {
+    for (Home& home : homes_)
+      for (Slot& slot : home.slots) slot = {kNoIndex, kNoIndex};
     edges_.of_half_edges.resize(triangles.size());
     // Room for as many borders as most meshes have.
     make_room(triangles.size() / 2 + triangles.size() / 16 + kPerFace);
@@ -41,12 +43,12 @@ class EdgeFinder {
   static constexpr Index kPerFace = 3;
   static constexpr unsigned kSlots = 8;
   struct Slot {
-    Index far, edge;  // far: the edge's other end
+    Index far, edge;  // far: the edge's other end; kNoIndex: free
   };
   struct alignas(64) Home {
     Slot slots[kSlots];
   };
-  static constexpr unsigned kAllUsed = 0xff;
+  static constexpr Index kNowhere = kNoIndex - 1;
 
   static unsigned first_slot(Index far) { return far * 0x9e3779b1u >> 29; }
 
@@ -60,8 +62,8 @@ class EdgeFinder {
     for (Index h = begin; h < end;) {
       // Arrays by their addresses and the count in a register: the compiler cannot know that what is written
       // to the ones changes none of the others.
-      const Fast fast{triangles_.data(),           homes_.data(),          used_.data(),
-                      edges_.of_half_edges.data(), edges_.vertices.data(), edges_.sides.data()};
+      const Fast fast{triangles_.data(), homes_.data(), edges_.of_half_edges.data(),
+                      edges_.vertices.data(), edges_.sides.data()};
       const Count room = edges_.vertices.size() - kPerFace;
       Index count = count_;
       for (; h < end && count <= room; h += kPerFace) {
@@ -78,29 +80,25 @@ class EdgeFinder {
   struct Fast {
     const Index* triangles;
     Home* homes;
-    unsigned char* used;
     Index* of_half_edges;
     std::array<Index, 2>*vertices, *sides;
   };
   // Half-edge h runs from a to b; returns the number of edges after it. Choices are made by masks, for the
   // compiler would make them by jumps.
   [[gnu::always_inline]] inline Index join(const Fast& fast, Index count, Index h, Index a, Index b) {
-    const Index down = a > b ? ~Index{0} : 0, low = a ^ ((a ^ b) & down), high = a ^ b ^ low;
-    const unsigned used = fast.used[low];
-    unsigned at = first_slot(high);
-    Slot* slot = &fast.homes[low].slots[at];
+    const Index low = std::min(a, b), high = std::max(a, b);
+    Slot* slot = &fast.homes[low].slots[first_slot(high)];
     // One in eight or so is taken by another edge.
-    const auto other = static_cast<unsigned>(slot->far != high);
-    if ((used >> at & other) != 0) [[unlikely]] {
-      if (!next_slot(fast.homes[low], used, high, at)) return join_elsewhere(count, h, a, low, high);
-      slot = &fast.homes[low].slots[at];
+    if ((slot->far != high) & (slot->far != kNoIndex)) [[unlikely]] {
+      slot = next_slot(fast.homes[low], high);
+      if (slot == nullptr) return join_elsewhere(count, h, a, low, high);
     }
-    const Index found = 0 - (used >> at & 1);  // all bits or none
+    const Index is_new = slot->far != high, found = is_new - 1;  // found: all bits or none
     // As if the edge were new; if it is not, the next new one overwrites this.
     fast.vertices[count] = {low, high};
     fast.sides[count] = {kNoIndex, kNoIndex};
     const Index e = (slot->edge & found) | (count & ~found);
-    Index& side = fast.sides[e][down & 1];
+    Index& side = fast.sides[e][a > b];
     fast.of_half_edges[h] = e;
     if (side != kNoIndex) [[unlikely]] {
       edges_.non_manifold.push_back(e);
@@ -108,15 +106,15 @@ class EdgeFinder {
     }
     side = h;
     *slot = {high, e};
-    fast.used[low] = static_cast<unsigned char>(used | 1u << at);
-    return count + 1 + found;
+    return count + is_new;
   }
 
-  // Steps on to the edge's slot or to a free one; false when there is neither.
-  static bool next_slot(const Home& home, unsigned used, Index far, unsigned& at) {
+  // The edge's slot, or a free one, or null when there is neither.
+  static Slot* next_slot(Home& home, Index far) {
+    unsigned at = first_slot(far);
     for (unsigned k = 0; k < kSlots; ++k, at = (at + 1) % kSlots)
-      if ((used >> at & 1) == 0 || home.slots[at].far == far) return true;
-    return false;
+      if (home.slots[at].far == far || home.slots[at].far == kNoIndex) return &home.slots[at];
+    return nullptr;
   }
 
   // The home has no slot left, or is a hub.
@@ -139,11 +137,9 @@ class EdgeFinder {
     return edge.first == h ? count_ : edges_.of_half_edges[edge.first];
   }
   Index edge_at(Index home, Index far) {
-    if (unsigned at = first_slot(far); next_slot(homes_[home], used_[home], far, at)) {
-      Slot& slot = homes_[home].slots[at];
-      if ((used_[home] >> at & 1) == 0) slot = {far, count_};
-      used_[home] = static_cast<unsigned char>(used_[home] | 1u << at);
-      return slot.edge;
+    if (Slot* slot = next_slot(homes_[home], far)) {
+      if (slot->far == kNoIndex) *slot = {far, count_};
+      return slot->edge;
     }
     if (chains_.empty()) chains_.assign(homes_.size(), kNoIndex);
     for (Index k = chains_[home]; k != kNoIndex; k = more_[k].next)
@@ -157,10 +153,9 @@ class EdgeFinder {
   // A hub's slots are all taken, by edges to nowhere.
   void mark_hubs() {
     Count hubs = 0;
-    for (Index v = 0; v < used_.size(); ++v) {
+    for (Index v = 0; v < homes_.size(); ++v) {
       if (!is_hub(v)) continue;
-      used_[v] = kAllUsed;
-      for (Slot& slot : homes_[v].slots) slot = {kNoIndex, kNoIndex};
+      for (Slot& slot : homes_[v].slots) slot.far = kNowhere;
       ++hubs;
     }
     if (hubs > 1) sort_between_hubs();
@@ -182,8 +177,7 @@ class EdgeFinder {
   std::span<const Index> triangles_, corner_offsets_;
   Edges edges_;
   Index count_ = 0;
-  Buffer<Home> homes_;               // per vertex
-  std::vector<unsigned char> used_;  // per vertex: a bit for every slot that is taken
+  Buffer<Home> homes_;  // per vertex
   struct More {
     Index far, edge, next;
   };

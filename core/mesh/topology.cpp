@@ -118,36 +118,43 @@ Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, c
 
 // Whether the walk from the first corner round v, or from border to border, meets all of v's corners.
 bool Topology::go_round(Index v, Index first_corner) {
-  const std::size_t corners = vertex_corners(v).size();
-  const Count met = write_fan(v, first_corner);
-  if (corners == vertex_edges(v).size()) return met == corners;
+  const Walk walk = write_fan(v, first_corner);
+  if (walk.corners == vertex_corners(v).size()) return true;
+  if (walk.closed) return false;
   // Clockwise to the border.
   Index start = first_corner;
   while (true) {
     const Index h = across(edges_.of_half_edges[start], start);
     if (h == kNoIndex) break;
     start = next(h);
-    if (start == first_corner) return false;  // a closed fan, beside an open one
   }
-  return (start == first_corner ? met : write_fan(v, start)) == corners;
+  return start != first_corner && write_fan(v, start).corners == vertex_corners(v).size();
 }
 
 // Writes corners counter-clockwise from `start` on, and their edges, until they come to `start` again or to a
-// border; returns how many.
-Count Topology::write_fan(Index v, Index start) {
+// border.
+Topology::Walk Topology::write_fan(Index v, Index start) {
+  const std::size_t all = vertex_corners(v).size();
   Index* const corners = vertex_corners_.data() + vertex_corner_offsets_[v];
   Index* const edges = vertex_edges_.data() + vertex_edge_offsets_[v];
   const Index* const edge_of = edges_.of_half_edges.data();
-  Count count = 0;
   Index h = start, e = edge_of[h];
-  do {
-    corners[count] = h;
-    edges[count++] = e;
-    e = edge_of[prev(h)];
-    h = across(e, prev(h));
-  } while (h != start && h != kNoIndex);
-  if (h == kNoIndex) edges[count] = e;
-  return count;
+  // It ends by counting, as a rule: where h leads to is known late, and the processor goes on to the next vertex
+  // meanwhile.
+  for (std::size_t k = 0; k < all; ++k) {
+    corners[k] = h;
+    edges[k] = e;
+    const Index before = prev(h);
+    e = edge_of[before];
+    h = across(e, before);
+    if (h == kNoIndex) [[unlikely]] {
+      edges[k + 1] = e;
+      return {k + 1, false};
+    }
+    if (h == start && k + 1 < all) [[unlikely]]
+      return {k + 1, true};
+  }
+  return {all, true};
 }
 
 // Writes the corners and edges of the other vertices.

@@ -110,7 +110,11 @@ class Topology {
   void count_edges();
   Result<void> go_round_vertices(std::span<const Index> first_corners, const Budget& budget);
   bool go_round(Index v, Index first_corner);
-  Count write_fan(Index v, Index start);
+  struct Walk {
+    std::size_t corners;
+    bool closed;
+  };
+  Walk write_fan(Index v, Index start);
   void list_non_manifold();
   std::span<const Index> crowd_of(Index e) const;
   // The other of two half-edges along e; kNoIndex at a border.
