@@ -70,6 +70,10 @@ class Topology {
     return slice(vertex_corners_, vertex_corner_offsets_, v);
   }
 
+  // The rows of vertex_edges(v), one after the other, and where each begins and the last ends.
+  std::span<const Index> all_vertex_edges() const { return vertex_edges_; }
+  std::span<const Index> vertex_edge_offsets() const { return vertex_edge_offsets_; }
+
   std::span<const EdgeKind> edge_kinds() const { return edges_.kinds; }
   bool is_boundary(Index e) const { return edges_.kinds[e] == EdgeKind::border; }
   // More than two faces, or two that run along the edge in the same direction (their windings clash).
@@ -85,8 +89,9 @@ class Topology {
     return edges_.kinds[e] == EdgeKind::manifold ? across(e, h) : kNoIndex;
   }
 
-  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  // Without a choice: which corner of its face it is, no processor can foresee.
+  static Index next(Index h) { return h + 1 - 3 * static_cast<Index>(h % 3 == 2); }
+  static Index prev(Index h) { return h - 1 + 3 * static_cast<Index>(h % 3 == 0); }
 
   // The corners at v in fans: faces follow each other counter-clockwise across edges for which passable(edge)
   // is true and that two faces share in agreement. A fan that closes on itself starts at the lowest of its

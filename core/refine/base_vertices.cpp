@@ -75,33 +75,16 @@ void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const
 }
 
 template <class Scheme, class Real>
-template <Index Width>
-void BaseVertices<Scheme, Real>::refine_settled(Count n, const Real* from, Real* to, Index begin,
-                                                Index end) const {
-  // A constant where the width is one of the usual ones.
-  const auto width = [&] {
-    if constexpr (Width == 0)
-      return width_;
-    else
-      return std::integral_constant<Index, Width>{};
-  }();
-  for (Index v = begin; v < end; ++v) {
-    const VertexRule rule = linear_ ? VertexRule::corner : net_.vertex_rules()[v];
-    VertexMask mask;  // v stays
-    if (rule == VertexRule::smooth || rule == VertexRule::dart) {
-      mask = smooth_mask(static_cast<Index>(net_.topology().vertex_edges(v).size()));
-    } else if (rule == VertexRule::crease) {
-      const auto ends = crease_edges(v);
-      mask = {crease_.self, crease_.each, crease_.crease, {ends[0], ends[1]}};
-    }
-    Real sum[Width == 0 ? 1 : Width];
-    if constexpr (Width == 0) {
-      weigh(n, from, v, mask, to + Count{v} * width_, width);
-    } else {
-      weigh(n, from, v, mask, sum, width);
-      std::copy_n(sum, Width, to + Count{v} * Width);
-    }
+void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real* to, Index v) const {
+  const VertexRule rule = net_.vertex_rules()[v];
+  VertexMask mask;  // v stays
+  if (rule == VertexRule::smooth || rule == VertexRule::dart) {
+    mask = smooth_mask(static_cast<Index>(net_.topology().vertex_edges(v).size()));
+  } else if (rule == VertexRule::crease) {
+    const auto ends = crease_edges(v);
+    mask = {crease_.self, crease_.each, crease_.crease, {ends[0], ends[1]}};
   }
+  weigh(n, from, v, mask, to + Count{v} * width_, width_);
 }
 
 template <class Scheme, class Real>
@@ -122,27 +105,21 @@ void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from,
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin,
                                         Index end) const {
-  const Count n = segments(level);
-  switch (width_) {
-    case 1:
-      refine_settled<1>(n, from, to, begin, end);
-      break;
-    case 2:
-      refine_settled<2>(n, from, to, begin, end);
-      break;
-    case 3:
-      refine_settled<3>(n, from, to, begin, end);
-      break;
-    case 4:
-      refine_settled<4>(n, from, to, begin, end);
-      break;
-    default:
-      refine_settled<0>(n, from, to, begin, end);
+  const auto each = [&](std::span<const Index> vertices, auto f) {
+    for (auto at = std::ranges::lower_bound(vertices, begin); at != vertices.end() && *at < end; ++at) f(*at);
+  };
+  each(net_.special_vertices(), [&](Index v) { refine_special(segments(level), from, to, v); });
+  each(net_.unsettled_vertices(level), [&](Index v) { refine_unsettled(level, from, to, v); });
+}
+
+template <class Scheme, class Real>
+std::vector<Real> BaseVertices<Scheme, Real>::smooth_masks() const {
+  std::vector<Real> masks(2 * table_.size(), Real(0));
+  for (const Index n : net_.valences()) {
+    masks[2 * n] = static_cast<Real>(table_[n].vertex.self);
+    masks[2 * n + 1] = static_cast<Real>(table_[n].vertex.each);
   }
-  if (linear_) return;
-  const auto unsettled = net_.unsettled_vertices(level);
-  for (auto at = std::ranges::lower_bound(unsettled, begin); at != unsettled.end() && *at < end; ++at)
-    refine_unsettled(level, from, to, *at);
+  return masks;
 }
 
 template <class Scheme, class Real>

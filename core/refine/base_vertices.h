@@ -17,9 +17,12 @@ class BaseVertices {
  public:
   BaseVertices(const Net& net, const Scheme& scheme, Index width, Smoothing smoothing);
 
-  // The values of base vertices [begin, end) at level + 1, from those of `level`; both in the closed-form
-  // numbering.
+  // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner loops
+  // (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
+  // closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end) const;
+  // Per valence of the net that is listed: weight of the vertex, of each neighbour.
+  std::vector<Real> smooth_masks() const;
 
   // Limits and frames at base vertices [begin, end).
   void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end) const;
@@ -40,8 +43,7 @@ class BaseVertices {
     return net_.topology().vertex_count() + e * (n - 1) + (ends[0] == v ? 0 : n - 2);
   }
   VertexMask smooth_mask(Index valence) const;
-  template <Index Width>
-  void refine_settled(Count n, const Real* from, Real* to, Index begin, Index end) const;
+  void refine_special(Count n, const Real* from, Real* to, Index v) const;
   void refine_unsettled(Index level, const Real* from, Real* to, Index v) const;
   template <class Width>
   [[gnu::always_inline]] inline void weigh(Count n, const Real* from, Index v, const VertexMask& mask,

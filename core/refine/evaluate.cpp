@@ -27,6 +27,8 @@ constexpr Count kLargeFace = 1 << 18;  // points inside a face that is taken in 
 
 static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
               "the kernels know the rules by number");
+static_assert(static_cast<int>(VertexRule::smooth) == 0 && static_cast<int>(VertexRule::dart) == 1);
+static_assert(kernels::kListedValence == Net::kListedValence);
 
 // What a frame of a regular point is made of: see TriLimit::robust_frame.
 template <class Real>
@@ -80,6 +82,7 @@ class Evaluation {
     linear_ |= net.smoothing() == Smoothing::linear;
     if (linear_)
       linear_rules_.assign(net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
+    vertex_masks_ = vertices_.smooth_masks();
     if (out.wants_limits()) vertices_.prepare_limits(out.wants_frames());
     // Two levels below the last take turns; the last goes straight to the caller.
     for (Index k = 0; k < 2; ++k)
@@ -141,6 +144,10 @@ class Evaluation {
             pairs(topology.edge_vertices()),
             pairs(topology.edge_sides()),
             rules,
+            topology.all_vertex_edges().data(),
+            topology.vertex_edge_offsets().data(),
+            reinterpret_cast<const unsigned char*>(net_.vertex_rules().data()),
+            vertex_masks_.data(),
             topology.vertex_count(),
             topology.edge_count(),
             segments(level),
@@ -188,8 +195,20 @@ class Evaluation {
   }
 
   void refine_vertices(Worker& worker, Index level, const TriStep<Real>& step) const {
-    in_blocks(worker, net_.topology().vertex_count(), 4,
-              [&](Index begin, Index end) { vertices_.refine(level, step.from, step.to, begin, end); });
+    in_blocks(worker, net_.topology().vertex_count(), 4, [&](Index begin, Index end) {
+      if (linear_) {
+        std::copy(step.from + Count{begin} * width_, step.from + Count{end} * width_,
+                  step.to + Count{begin} * width_);
+        return;
+      }
+      for_components([&](Index kernel, Index component) {
+        TriStep<Real> part = step;
+        part.from += component;
+        part.to += component;
+        kernels_.refine_vertices[kernel](part, begin, end);
+      });
+      vertices_.refine(level, step.from, step.to, begin, end);
+    });
   }
 
   void refine_edges(Worker& worker, Index level, const TriStep<Real>& step) const {
@@ -303,6 +322,7 @@ class Evaluation {
   BaseVertices<Scheme, Real> vertices_;
   BaseEdges<Scheme, Real> edges_;
   std::vector<unsigned char> linear_rules_;
+  std::vector<Real> vertex_masks_;
   std::array<Buffer<Real>, 2> scratch_;
   Buffer<Real> own_values_;
   LevelOfNet<Real> level_of_net_{net_.topology(), level_, nullptr};

@@ -148,7 +148,10 @@ Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
   for (Index v = 0; v < vertices; ++v) {
     const std::size_t valence = topology_.vertex_corners(v).size();
     if (valence == 0) vertex_rules_[v] = VertexRule::corner;
-    if (vertex_rules_[v] <= VertexRule::dart && valence <= kListedValence) present[valence] = true;
+    if (vertex_rules_[v] <= VertexRule::dart && valence <= kListedValence)
+      present[valence] = true;
+    else
+      special_vertices_.push_back(v);
   }
   for (Index n = 0; n <= kListedValence; ++n)
     if (present[n]) valences_.push_back(n);

@@ -71,6 +71,8 @@ class Net {
   // Valences of smooth vertices and darts, ascending; those above kListedValence are left out.
   std::span<const Index> valences() const { return valences_; }
   static constexpr Index kListedValence = 64;
+  // The vertices that are neither smooth nor darts, or of more edges than are listed, ascending.
+  std::span<const Index> special_vertices() const { return special_vertices_; }
   // At levels 0 to max_level + 1; nothing is semi-sharp at levels beyond those listed.
   const SemiSharp& semi_sharp(Index level) const;
   // Sharpness at `level` of a segment of edge e, counted from its lower end; of the one next to its end v.
@@ -99,7 +101,7 @@ class Net {
   std::vector<Index> value_indices_;
   std::vector<VertexRule> vertex_rules_;
   std::vector<EdgeRule> edge_rules_;
-  std::vector<Index> valences_;
+  std::vector<Index> valences_, special_vertices_;
   std::vector<Index> semi_sharp_edges_;        // while the net is built
   std::vector<SemiSharp> levels_;              // until nothing is semi-sharp
   std::vector<std::vector<Index>> unsettled_;  // per level of levels_

@@ -110,7 +110,7 @@ struct FaceNumbers {
 
 // Calls f(i0, j0, i1, j1, i2, j2) for the corners of all n^2 triangles of a face, in their order.
 template <class F>
-void for_each_triangle(Count n, F&& f) {
+constexpr void for_each_triangle(Count n, F&& f) {
   for (Count j = 0; j < n; ++j)
     for (Count i = 0; i + j < n; ++i) {
       f(i, j, i + 1, j, i, j + 1);

@@ -11,18 +11,18 @@
 namespace subdivd {
 namespace {
 
-// Up to here a face's triangles are looked up in one pattern for all faces.
-constexpr Count kPatternSegments = 8;
-
 // Local numbers of a face's points: row by row, borders included.
 constexpr Index local(Count n, Count i, Count j) {
   return static_cast<Index>(j * (n + 1) - j * (j - 1) / 2 + i);
 }
 
-std::vector<unsigned char> pattern_of(Count n) {
-  std::vector<unsigned char> pattern;
-  const auto add = [&](Count i, Count j) { pattern.push_back(static_cast<unsigned char>(local(n, i, j))); };
-  for_each_triangle(n, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
+// The local numbers of a face's triangles, in their order.
+template <Count N>
+constexpr auto pattern() {
+  std::array<unsigned char, 3 * N * N> pattern{};
+  std::size_t at = 0;
+  const auto add = [&](Count i, Count j) { pattern[at++] = static_cast<unsigned char>(local(N, i, j)); };
+  for_each_triangle(N, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
     add(i0, j0);
     add(i1, j1);
     add(i2, j2);
@@ -32,43 +32,52 @@ std::vector<unsigned char> pattern_of(Count n) {
 
 class FaceWriter {
  public:
-  FaceWriter(const Topology& topology, Index level) : topology_(topology), n_(segments(level)) {
-    if (n_ <= kPatternSegments) pattern_ = pattern_of(n_);
-  }
+  FaceWriter(const Topology& topology, Index level) : topology_(topology), n_(segments(level)) {}
 
   void write(Index face, Index* out) {
+    if (n_ == 2) return write_four(face, out);
     const FaceNumbers numbers(topology_, n_, face);
-    if (n_ == 2)
-      write_four(numbers, out);
-    else if (!pattern_.empty())
-      write_by_pattern(numbers, out);
-    else
-      write_by_rows(numbers, out);
+    switch (n_) {
+      case 4:
+        return write_by_pattern<4>(numbers, out);
+      case 8:
+        return write_by_pattern<8>(numbers, out);
+      default:
+        return write_by_rows(numbers, out);
+    }
   }
 
  private:
-  static void write_four(const FaceNumbers& numbers, Index* out) {
-    const Index *v = numbers.corner, *e = numbers.side;
-    const Index four[12] = {v[0], e[0], e[2], e[0], e[1], e[2], e[0], v[1], e[1], e[2], e[1], v[2]};
+  // One point an edge: it makes no difference from which end they count.
+  void write_four(Index face, Index* out) const {
+    const Index *v = topology_.triangles().data() + Count{3} * face,
+                *e = topology_.half_edge_edges().data() + Count{3} * face, first = topology_.vertex_count();
+    const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0], first + e[1], first + e[2],
+                            first + e[0], v[1],         first + e[1], first + e[2], first + e[1], v[2]};
     std::memcpy(out, four, sizeof four);
   }
 
-  void write_by_pattern(const FaceNumbers& numbers, Index* out) {
-    std::array<Index, local(kPatternSegments, 0, kPatternSegments) + 1> points;  // NOLINT: set below
-    Index inside = numbers.inside, at = 0;
-    for (Count i = 0; i <= n_; ++i) points[at++] = on_bottom(numbers, i);
-    for (Count j = 1; j <= n_; ++j)
-      for (Count i = 0; i + j <= n_; ++i)
-        points[at++] = i == 0 ? left(numbers, j) : i + j == n_ ? right(numbers, j) : inside++;
-    for (const unsigned char point : pattern_) *out++ = points[point];
+  template <Count N>
+  static void write_by_pattern(const FaceNumbers& numbers, Index* out) {
+    static constexpr auto kPattern = pattern<N>();
+    Index points[local(N, 0, N) + 1];  // all set below
+    const auto set = [&](Count i, Count j, Index number) { points[local(N, i, j)] = number; };
+    set(0, 0, numbers.corner[0]);
+    set(N, 0, numbers.corner[1]);
+    set(0, N, numbers.corner[2]);
+    for (Index p = 1; p < N; ++p) {
+      set(p, 0, numbers.side[0] + (p - 1) * numbers.step[0]);
+      set(N - p, p, numbers.side[1] + (p - 1) * numbers.step[1]);
+      set(0, N - p, numbers.side[2] + (p - 1) * numbers.step[2]);
+    }
+    Index inside = numbers.inside;
+    for (Count j = 1; j < N; ++j)
+      for (Count i = 1; i + j < N; ++i) set(i, j, inside++);
+#pragma GCC unroll 192
+    for (std::size_t k = 0; k < 3 * N * N; ++k) out[k] = points[kPattern[k]];
   }
 
-  // Points of row j: its ends, and between them numbers that follow one another (but for the bottom row's).
-  Index on_bottom(const FaceNumbers& numbers, Count i) const {
-    if (i == 0) return numbers.corner[0];
-    if (i == n_) return numbers.corner[1];
-    return numbers.side[0] + static_cast<Index>(i - 1) * numbers.step[0];
-  }
+  // Ends of row j.
   Index left(const FaceNumbers& numbers, Count j) const {  // side 2 runs down to corner 0
     return j == n_ ? numbers.corner[2] : numbers.side[2] + static_cast<Index>(n_ - j - 1) * numbers.step[2];
   }
@@ -124,30 +133,27 @@ class FaceWriter {
   static Index* write_squares(Index a, Index a_step, Index b, Index count, Index* out) {
     constexpr Index kRun = 4;
     using Four = Index __attribute__((vector_size(16)));
-    Index first[6 * kRun], grow[6 * kRun];
-    for (Index i = 0; i < kRun; ++i) {
-      const Index a0 = a + i * a_step, a1 = a0 + a_step, b0 = b + i, b1 = b0 + 1;
-      const Index six[6] = {a0, a1, b0, a1, b1, b0};
-      const Index steps[6] = {a_step, a_step, 1, a_step, 1, 1};
-      for (Index k = 0; k < 6; ++k) {
-        first[6 * i + k] = six[k];
-        grow[6 * i + k] = kRun * steps[k];
-      }
+    // Which of a run's numbers stem from a, and what to add, at a_step 1.
+    constexpr Index kAll = ~Index{0};
+    constexpr Four kOfA[3] = {{kAll, kAll, 0, kAll}, {0, 0, kAll, kAll}, {0, kAll, 0, 0}};
+    constexpr Four kOffset[6] = {{0, 1, 0, 1}, {1, 0, 1, 2}, {1, 2, 2, 1}, {2, 3, 2, 3}, {3, 2, 3, 4}, {3, 4, 4, 3}};
+    const Index down = a_step == 1 ? 0 : kAll;
+    Four at[6], grow[6];
+    for (int k = 0; k < 6; ++k) {
+      const Four of_a = kOfA[k % 3], negate = of_a & down;
+      at[k] = (of_a & a) + (~of_a & b) + ((kOffset[k] ^ negate) - negate);
+      grow[k] = (Four{kRun, kRun, kRun, kRun} ^ negate) - negate;
     }
-    Four pattern[6], growth[6];
-    std::memcpy(pattern, first, sizeof pattern);
-    std::memcpy(growth, grow, sizeof growth);
     for (Index done = 0; done < count; done += kRun, out += 6 * kRun)
       for (int k = 0; k < 6; ++k) {
-        std::memcpy(out + 4 * k, &pattern[k], sizeof pattern[k]);
-        pattern[k] += growth[k];
+        std::memcpy(out + 4 * k, &at[k], sizeof at[k]);
+        at[k] += grow[k];
       }
     return out - 6 * ((kRun - count % kRun) % kRun);
   }
 
   const Topology& topology_;
   Count n_;
-  std::vector<unsigned char> pattern_;
 };
 
 }  // namespace

@@ -23,6 +23,9 @@ struct TriStep {
   const Index* edge_vertices;    // 2 per edge, the lower first
   const Index* edge_sides;       // 2 per edge: the half-edge that runs from the lower end, and the other
   const unsigned char* edge_rules;
+  const Index *vertex_edges, *vertex_edge_offsets;  // rows of edges, one per vertex
+  const unsigned char* vertex_rules;
+  const Real* vertex_masks;  // per valence up to kListedValence: weight of the vertex, of each neighbour
   Index vertex_count, edge_count;
   Count n;
   Index width;
@@ -53,10 +56,15 @@ struct FaceRow {
 inline constexpr Count row_stride(Count n) { return 4 * (n + 4); }
 inline constexpr Count row_scratch(Count n) { return 6 * row_stride(n) + 16; }
 
+inline constexpr Index kListedValence = 64;
+
 // The loops for one instruction set; index K - 1 holds those for K scalars, 1 to 4.
 template <class Real>
 struct TriKernels {
   const char* name;
+  // Those of the base vertices [begin, end) that are smooth or darts and of a listed valence; the others are
+  // left alone.
+  void (*refine_vertices[4])(const TriStep<Real>&, Index begin, Index end);
   // The points inside base edges [begin, end), by their settled rules.
   void (*refine_edges[4])(const TriStep<Real>&, Index begin, Index end);
   // The points inside faces that stem from the coarse rows [begin, end).
