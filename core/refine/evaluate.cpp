@@ -150,6 +150,7 @@ class Evaluation {
             vertex_masks_.data(),
             topology.vertex_count(),
             topology.edge_count(),
+            topology.face_count(),
             segments(level),
             width_,
             from,

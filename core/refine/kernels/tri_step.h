@@ -26,7 +26,7 @@ struct TriStep {
   const Index *vertex_edges, *vertex_edge_offsets;  // rows of edges, one per vertex
   const unsigned char* vertex_rules;
   const Real* vertex_masks;  // per valence up to kListedValence: weight of the vertex, of each neighbour
-  Index vertex_count, edge_count;
+  Index vertex_count, edge_count, face_count;
   Count n;
   Index width;
   const Real* from;  // a step may read 3 scalars past its end, a limit may not
