@@ -37,6 +37,8 @@ class Worker {
     return {total / count_ * index_ + total % count_ * index_ / count_,
             total / count_ * (index_ + 1) + total % count_ * (index_ + 1) / count_};
   }
+  // One that has everything to itself, for what is too little to share. It must not meet.
+  Worker alone() const { return {*team_, 0, 1}; }
   // False when the team is to stop. Call after `steps` more elementary steps (points, faces: some 10 ns
   // each); every few thousand of them the budget is polled.
   bool go_on(Count steps);

@@ -1,7 +1,6 @@
 #include "core/refine/base_vertices.h"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "core/mesh/positions.h"
 #include "core/refine/split.h"
@@ -22,25 +21,14 @@ BaseVertices<Scheme, Real>::BaseVertices(const Net& net, const Scheme& scheme, I
                                          Smoothing smoothing)
     : net_(net), scheme_(scheme), width_(width), linear_(smoothing == Smoothing::linear) {
   for (const Index n : net.valences())
-    table_[n].vertex = scheme.vertex_mask({n, net.crease_method(), 0, 0, {}, {}});
+    smooth_[n] = scheme.vertex_mask({n, net.crease_method(), 0, 0, {}, {}});
   constexpr std::array<float, 2> kCrease{kInfiniteSharpness, kInfiniteSharpness};
   crease_ = scheme.vertex_mask({1, net.crease_method(), 0, 0, kCrease, kCrease});
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::prepare_limits(bool frames) {
-  for (const Index n : net_.valences()) {
-    table_[n].limit = scheme_.smooth_limit_mask(n);
-    if (!frames) continue;
-    for (auto [mask, to] : {std::pair{scheme_.smooth_tangent_u(n), &table_[n].tangent_u},
-                            std::pair{scheme_.smooth_tangent_v(n), &table_[n].tangent_v}})
-      to->assign(mask.edges.begin(), mask.edges.end());
-  }
-}
-
-template <class Scheme, class Real>
 VertexMask BaseVertices<Scheme, Real>::smooth_mask(Index valence) const {
-  if (valence <= Net::kListedValence) return table_[valence].vertex;
+  if (valence <= Net::kListedValence) return smooth_[valence];
   return scheme_.vertex_mask({valence, net_.crease_method(), 0, 0, {}, {}});
 }
 
@@ -58,20 +46,19 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
 // Every edge's neighbour in the order of the edges around v, then the crease, then the vertex itself: the
 // order of the plain engine, to the bit.
 template <class Scheme, class Real>
-template <class Width>
-void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out,
-                                       Width width) const {
+void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask,
+                                       Real* out) const {
   const auto edges = net_.topology().vertex_edges(v);
-  for (Index c = 0; c < width; ++c) out[c] = 0;
-  const auto add = [&](Real weight, Count point) {
-    const Real* at = from + point * width;
-    for (Index c = 0; c < width; ++c) out[c] += weight * at[c];
+  std::fill_n(out, width_, Real(0));
+  const auto add = [&](double weight, Count point) {
+    const Real* at = from + point * width_;
+    for (Index c = 0; c < width_; ++c) out[c] += static_cast<Real>(weight) * at[c];
   };
   if (mask.each != 0)
-    for (const Index e : edges) add(static_cast<Real>(mask.each), beside(n, e, v));
+    for (const Index e : edges) add(mask.each, beside(n, e, v));
   if (mask.crease != 0)
-    for (const Index end : mask.crease_ends) add(static_cast<Real>(mask.crease), beside(n, edges[end], v));
-  add(static_cast<Real>(mask.self), v);
+    for (const Index end : mask.crease_ends) add(mask.crease, beside(n, edges[end], v));
+  add(mask.self, v);
 }
 
 template <class Scheme, class Real>
@@ -84,7 +71,7 @@ void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real*
     const auto ends = crease_edges(v);
     mask = {crease_.self, crease_.each, crease_.crease, {ends[0], ends[1]}};
   }
-  weigh(n, from, v, mask, to + Count{v} * width_, width_);
+  weigh(n, from, v, mask, to + Count{v} * width_);
 }
 
 template <class Scheme, class Real>
@@ -99,76 +86,50 @@ void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from,
   const float own = net_.semi_sharp(level).vertex(v);
   const VertexMask mask = scheme_.vertex_mask({static_cast<Index>(topology.vertex_corners(v).size()),
                                                net_.crease_method(), own, decay(own), sharpness, child});
-  weigh(segments(level), from, v, mask, to + Count{v} * width_, width_);
+  weigh(segments(level), from, v, mask, to + Count{v} * width_);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin,
                                         Index end) const {
-  const auto each = [&](std::span<const Index> vertices, auto f) {
-    for (auto at = std::ranges::lower_bound(vertices, begin); at != vertices.end() && *at < end; ++at) f(*at);
-  };
-  each(net_.special_vertices(), [&](Index v) { refine_special(segments(level), from, to, v); });
-  each(net_.unsettled_vertices(level), [&](Index v) { refine_unsettled(level, from, to, v); });
+  for_each_in(net_.special_vertices(), begin, end,
+              [&](Index v) { refine_special(segments(level), from, to, v); });
+  for_each_in(net_.unsettled_vertices(level), begin, end, [&](Index v) { refine_unsettled(level, from, to, v); });
 }
 
 template <class Scheme, class Real>
 std::vector<Real> BaseVertices<Scheme, Real>::smooth_masks() const {
-  std::vector<Real> masks(2 * table_.size(), Real(0));
+  std::vector<Real> masks(2 * smooth_.size(), Real(0));
   for (const Index n : net_.valences()) {
-    masks[2 * n] = static_cast<Real>(table_[n].vertex.self);
-    masks[2 * n + 1] = static_cast<Real>(table_[n].vertex.each);
+    masks[2 * n] = static_cast<Real>(smooth_[n].self);
+    masks[2 * n + 1] = static_cast<Real>(smooth_[n].each);
   }
   return masks;
 }
 
 template <class Scheme, class Real>
-template <class Width>
-void BaseVertices<Scheme, Real>::limit_settled(Count n, const Real* values, Index v, Real* out,
-                                               Width width) const {
-  const auto edges = net_.topology().vertex_edges(v);
-  VertexMask mask;
-  switch (net_.vertex_rules()[v]) {
-    case VertexRule::smooth:
-    case VertexRule::dart: {
-      const auto valence = static_cast<Index>(edges.size());
-      mask = valence <= Net::kListedValence ? table_[valence].limit : scheme_.smooth_limit_mask(valence);
-      break;
-    }
-    case VertexRule::crease: {
-      const auto ends = crease_edges(v);
-      mask = scheme_.crease_limit_mask(ends[0], ends[1]);
-      break;
-    }
-    case VertexRule::corner:
-      break;
+std::vector<Real> BaseVertices<Scheme, Real>::limit_masks() const {
+  std::vector<Real> masks(2 * smooth_.size(), Real(0));
+  for (const Index n : net_.valences()) {
+    const VertexMask mask = scheme_.smooth_limit_mask(n);
+    masks[2 * n] = static_cast<Real>(mask.self);
+    masks[2 * n + 1] = static_cast<Real>(mask.each);
   }
-  weigh(n, values, v, mask, out, width);
+  return masks;
 }
 
-// Counter-clockwise from the lowest corner on.
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::smooth_frame(Count n, const Real* values, Index v,
-                                              Frame<Real>& frame) const {
-  const Topology& topology = net_.topology();
-  const auto edges = topology.vertex_edges(v);
-  const auto valence = static_cast<Index>(edges.size());
-  const bool listed = valence <= Net::kListedValence;
-  RingMask own_u, own_v;
-  if (!listed) {
-    own_u = scheme_.smooth_tangent_u(valence);
-    own_v = scheme_.smooth_tangent_v(valence);
-  }
-  const Real* center = values + std::size_t{3} * v;
-  for (Index k = 0; k < valence; ++k) {
-    const Real* at = values + 3 * beside(n, edges[k], v);
-    const Real weight_u = listed ? table_[valence].tangent_u[k] : static_cast<Real>(own_u.edges[k]);
-    const Real weight_v = listed ? table_[valence].tangent_v[k] : static_cast<Real>(own_v.edges[k]);
-    for (int c = 0; c < 3; ++c) {
-      frame.u[c] += weight_u * (at[c] - center[c]);
-      frame.v[c] += weight_v * (at[c] - center[c]);
+std::vector<Real> BaseVertices<Scheme, Real>::tangent_masks() const {
+  constexpr std::size_t kRow = 2 * Net::kListedValence;
+  std::vector<Real> weights(kRow * smooth_.size(), Real(0));
+  for (const Index n : net_.valences()) {
+    const RingMask u = scheme_.smooth_tangent_u(n), v = scheme_.smooth_tangent_v(n);
+    for (Index k = 0; k < n; ++k) {
+      weights[kRow * n + 2 * k] = static_cast<Real>(u.edges[k]);
+      weights[kRow * n + 2 * k + 1] = static_cast<Real>(v.edges[k]);
     }
   }
+  return weights;
 }
 
 template <class Scheme, class Real>
@@ -213,39 +174,29 @@ void BaseVertices<Scheme, Real>::limit_by_ring(Index level, const Real* values, 
 }
 
 template <class Scheme, class Real>
+void BaseVertices<Scheme, Real>::limit_special(Index level, const Real* values, const Evaluated<Real>& out,
+                                               Index v) const {
+  if (out.limits != nullptr) {
+    VertexMask mask;  // v stays
+    const VertexRule rule = net_.vertex_rules()[v];
+    if (rule == VertexRule::smooth) {
+      mask = scheme_.smooth_limit_mask(static_cast<Index>(net_.topology().vertex_edges(v).size()));
+    } else if (rule == VertexRule::crease) {
+      const auto ends = crease_edges(v);
+      mask = scheme_.crease_limit_mask(ends[0], ends[1]);
+    }
+    weigh(segments(level), values, v, mask, out.limits + Count{v} * width_);
+  }
+  if (out.wants_frames()) limit_by_ring(level, values, out, v, true);
+}
+
+template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Evaluated<Real>& out,
                                        Index begin, Index end) const {
-  if (linear_) {
-    if (out.limits != nullptr)
-      std::copy(values + Count{begin} * width_, values + Count{end} * width_,
-                out.limits + Count{begin} * width_);
-    return;
-  }
-  const Count n = segments(level);
-  const auto unsettled = net_.unsettled_vertices(level);
-  auto next = std::ranges::lower_bound(unsettled, begin);
-  for (Index v = begin; v < end; ++v) {
-    const bool settled = next == unsettled.end() || *next != v;
-    if (!settled) ++next;
-    const VertexRule rule = net_.vertex_rules()[v];
-    if (!settled || rule == VertexRule::dart) {
-      limit_by_ring(level, values, out, v, false);
-      continue;
-    }
-    if (out.limits != nullptr) {
-      if (width_ == 3)
-        limit_settled(n, values, v, out.limits + Count{v} * 3, std::integral_constant<Index, 3>{});
-      else
-        limit_settled(n, values, v, out.limits + Count{v} * width_, width_);
-    }
-    if (!out.wants_frames()) continue;
-    Frame<Real> frame;
-    if (rule == VertexRule::smooth) smooth_frame(n, values, v, frame);
-    if (rule == VertexRule::smooth && set_normal(frame))
-      write_frames<Real>({&frame, 1}, out, v);
-    else
-      limit_by_ring(level, values, out, v, true);
-  }
+  for_each_in(net_.special_vertices(), begin, end, [&](Index v) { limit_special(level, values, out, v); });
+  const auto by_ring = [&](Index v) { limit_by_ring(level, values, out, v, false); };
+  for_each_in(net_.darts(), begin, end, by_ring);
+  for_each_in(net_.unsettled_vertices(level), begin, end, by_ring);
 }
 
 template class BaseVertices<Loop, float>;

@@ -21,20 +21,21 @@ class BaseVertices {
   // (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
   // closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end) const;
-  // Per valence of the net that is listed: weight of the vertex, of each neighbour.
+  // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each neighbour.
   std::vector<Real> smooth_masks() const;
 
-  // Limits and frames at base vertices [begin, end).
+  // The same for limits and frames. Not for linear smoothing either.
   void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end) const;
+  std::vector<Real> limit_masks() const;
+  // Per valence up to Net::kListedValence, as many pairs of weights of the neighbours in the two tangents.
+  std::vector<Real> tangent_masks() const;
 
-  // Tables of what `limit` needs beside `refine`. Call once before it.
-  void prepare_limits(bool frames);
+  // The frame of a smooth vertex, the long way.
+  Frame<Real> frame(Index level, const Real* values, Index v) const {
+    return LimitRing<Scheme, Real>(scheme_, net_.crease_method(), ring(level, values, v)).frames()[0];
+  }
 
  private:
-  struct Valence {
-    VertexMask vertex, limit;
-    std::vector<Real> tangent_u, tangent_v;
-  };
 
   // Number of the point of edge e next to its end v.
   Count beside(Count n, Index e, Index v) const {
@@ -45,13 +46,14 @@ class BaseVertices {
   VertexMask smooth_mask(Index valence) const;
   void refine_special(Count n, const Real* from, Real* to, Index v) const;
   void refine_unsettled(Index level, const Real* from, Real* to, Index v) const;
-  template <class Width>
-  [[gnu::always_inline]] inline void weigh(Count n, const Real* from, Index v, const VertexMask& mask,
-                                           Real* out, Width width) const;
+  void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out) const;
+  // Calls f(v) for those in [begin, end) of ascending vertices.
+  template <class F>
+  static void for_each_in(std::span<const Index> vertices, Index begin, Index end, F&& f) {
+    for (auto at = std::ranges::lower_bound(vertices, begin); at != vertices.end() && *at < end; ++at) f(*at);
+  }
   std::array<Index, 2> crease_edges(Index v) const;
-  template <class Width>
-  void limit_settled(Count n, const Real* values, Index v, Real* out, Width width) const;
-  void smooth_frame(Count n, const Real* values, Index v, Frame<Real>& frame) const;
+  void limit_special(Index level, const Real* values, const Evaluated<Real>& out, Index v) const;
   void limit_by_ring(Index level, const Real* values, const Evaluated<Real>& out, Index v,
                      bool frames_only) const;
   Ring<Real> ring(Index level, const Real* values, Index v) const;
@@ -61,7 +63,7 @@ class BaseVertices {
   Index width_;
   bool linear_;
   VertexMask crease_;
-  std::array<Valence, Net::kListedValence + 1> table_;  // of the net's valences
+  std::array<VertexMask, Net::kListedValence + 1> smooth_;  // of the net's valences
 };
 
 // Writes what `out` asks for of one vertex's frames.

@@ -23,38 +23,13 @@ using kernels::TriMasks;
 using kernels::TriStep;
 
 constexpr Count kBlock = 1 << 14;      // points between two polls of the budget, about
+constexpr Count kWorthSharing = 1 << 16;  // scalars of a level: some 50 microseconds
 constexpr Count kLargeFace = 1 << 18;  // points inside a face that is taken in several pieces
 
 static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
               "the kernels know the rules by number");
 static_assert(static_cast<int>(VertexRule::smooth) == 0 && static_cast<int>(VertexRule::dart) == 1);
 static_assert(kernels::kListedValence == Net::kListedValence);
-
-// What a frame of a regular point is made of: see TriLimit::robust_frame.
-template <class Real>
-struct LevelOfNet {
-  const Topology& topology;
-  Index level;
-  const Real* values;
-};
-
-template <class Scheme, class Real>
-void robust_frame(const void* context, Count vertex, Real* u, Real* v, Real* normal) {
-  const auto& net = *static_cast<const LevelOfNet<Real>*>(context);
-  Ring<Real> ring;
-  ring.center.assign(net.values + 3 * vertex, net.values + 3 * vertex + 3);
-  for (const Index neighbour : Numbering(net.topology, net.level).regular_ring(static_cast<Index>(vertex)))
-    ring.neighbors.insert(ring.neighbors.end(), net.values + Count{3} * neighbour,
-                          net.values + Count{3} * neighbour + 3);
-  ring.edge_sharpness.assign(6, 0.0f);
-  ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
-  ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
-  const Frame<Real> frame =
-      LimitRing<Scheme, Real>(Scheme{}, CreaseMethod::uniform, std::move(ring)).frames()[0];
-  std::copy_n(frame.u, 3, u);
-  std::copy_n(frame.v, 3, v);
-  std::copy_n(frame.normal, 3, normal);
-}
 
 // Cuts 0..face_count * n^2 triangles into rows of faces. Any monotone rule will do: what is written does not
 // depend on the cuts.
@@ -83,18 +58,18 @@ class Evaluation {
     if (linear_)
       linear_rules_.assign(net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
     vertex_masks_ = vertices_.smooth_masks();
-    if (out.wants_limits()) vertices_.prepare_limits(out.wants_frames());
+    if (out.wants_limits()) limit_masks_ = vertices_.limit_masks();
+    if (out.wants_frames()) tangent_masks_ = vertices_.tangent_masks();
     // Two levels below the last take turns; the last goes straight to the caller.
     for (Index k = 0; k < 2; ++k)
       if (level > k + 1) set_size(scratch_[k], net.value_count(level - 1 - k) * width);
     set_size(control_, control.size());
     std::ranges::copy(control, control_.begin());
     if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
-    level_of_net_.values = values_at(level);
   }
 
   Result<void> run(Index threads, const Budget& budget) {
-    threads = std::max<Index>(threads, 1);
+    threads = is_small(level_) ? 1 : std::max<Index>(threads, 1);
     deferred_.resize(threads);
     if (level_ == 0 && out_.values != nullptr)
       std::copy(control_.begin(), control_.end() - kSpare, out_.values);
@@ -167,21 +142,34 @@ class Evaluation {
 
   void work(Worker& worker) {
     std::vector<Real> rows(kernels::row_scratch(segments(level_)), Real(0));
-    for (Index level = 0; level < level_; ++level) {
-      const TriStep<Real> step = step_from(level, values_at(level), target_at(level + 1), rows.data());
-      refine_vertices(worker, level, step);
-      refine_edges(worker, level, step);
-      const bool last = level + 1 == level_ && out_.wants_limits();
-      // Limits inside a face need its border at the last level.
-      if (last && !worker.meet()) return;
-      refine_faces(worker, step, last ? &rows : nullptr);
-      if (!worker.meet()) return;
+    // The first worker goes through the small levels alone: sharing them would take longer.
+    Index level = 0;
+    Worker alone = worker.alone();
+    for (; worker.count() > 1 && is_small(level + 1); ++level)
+      if (worker.index() == 0) refine_level(alone, level, rows);
+    if (level > 0 && !worker.meet()) return;
+    for (; level < level_; ++level) {
+      if (!refine_level(worker, level, rows) || !worker.meet()) return;
     }
     if (!out_.wants_limits()) return;
     for (const auto& [begin, end] : deferred_[worker.index()]) limit_faces(begin, end, rows);
-    limit_vertices(worker);
+    limit_vertices(worker, rows);
     limit_edges(worker, rows);
   }
+
+  // False when the team is to stop.
+  bool refine_level(Worker& worker, Index level, std::vector<Real>& rows) {
+    const TriStep<Real> step = step_from(level, values_at(level), target_at(level + 1), rows.data());
+    refine_vertices(worker, level, step);
+    refine_edges(worker, level, step);
+    const bool last = level + 1 == level_ && out_.wants_limits();
+    // Limits inside a face need its border at the last level.
+    if (last && !worker.meet()) return false;
+    refine_faces(worker, step, last ? &rows : nullptr);
+    return true;
+  }
+
+  bool is_small(Index level) const { return net_.value_count(level) * width_ < kWorthSharing; }
 
   // Calls f(begin, end) for blocks of the worker's share of `total` items of `points` points each.
   template <class F>
@@ -256,11 +244,13 @@ class Evaluation {
     TriLimit<Real> limit{step_from(level_, values_at(level_), out_.limits, rows.data()),
                          0,
                          0,
+                         limit_masks_.data(),
+                         tangent_masks_.data(),
                          out_.tangents_u,
                          out_.tangents_v,
                          out_.normals,
-                         &robust_frame<Scheme, Real>,
-                         &level_of_net_};
+                         &Evaluation::robust_frame,
+                         this};
     if (linear_) {
       limit.self = 1;
     } else {
@@ -269,6 +259,32 @@ class Evaluation {
       limit.each = static_cast<Real>(mask.each);
     }
     return limit;
+  }
+
+  // See TriLimit.
+  static void robust_frame(const void* context, Count vertex, Real* u, Real* v, Real* normal) {
+    const auto& self = *static_cast<const Evaluation*>(context);
+    const Real* values = self.values_at(self.level_);
+    const auto number = static_cast<Index>(vertex);
+    const Frame<Real> frame = number < self.net_.topology().vertex_count()
+                                  ? self.vertices_.frame(self.level_, values, number)
+                                  : self.regular_frame(values, number);
+    std::copy_n(frame.u, 3, u);
+    std::copy_n(frame.v, 3, v);
+    std::copy_n(frame.normal, 3, normal);
+  }
+  Frame<Real> regular_frame(const Real* values, Index vertex) const {
+    Ring<Real> ring;
+    const auto append = [&](std::vector<Real>& to, Index v) {
+      to.insert(to.end(), values + Count{3} * v, values + Count{3} * v + 3);
+    };
+    append(ring.center, vertex);
+    for (const Index neighbour : Numbering(net_.topology(), level_).regular_ring(vertex))
+      append(ring.neighbors, neighbour);
+    ring.edge_sharpness.assign(6, 0.0f);
+    ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
+    ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
+    return LimitRing<Scheme, Real>(scheme_, CreaseMethod::uniform, std::move(ring)).frames()[0];
   }
 
   template <class F>
@@ -291,9 +307,20 @@ class Evaluation {
     });
   }
 
-  void limit_vertices(Worker& worker) const {
-    in_blocks(worker, net_.topology().vertex_count(), 16,
-              [&](Index begin, Index end) { vertices_.limit(level_, values_at(level_), out_, begin, end); });
+  void limit_vertices(Worker& worker, std::vector<Real>& rows) const {
+    const Real* values = values_at(level_);
+    in_blocks(worker, net_.topology().vertex_count(), 16, [&](Index begin, Index end) {
+      if (linear_) {
+        if (out_.limits != nullptr)
+          std::copy(values + Count{begin} * width_, values + Count{end} * width_,
+                    out_.limits + Count{begin} * width_);
+        return;
+      }
+      limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+        kernels_.limit_vertices[kernel](part, begin, end);
+      });
+      vertices_.limit(level_, values, out_, begin, end);
+    });
   }
 
   void limit_edges(Worker& worker, std::vector<Real>& rows) const {
@@ -323,10 +350,9 @@ class Evaluation {
   BaseVertices<Scheme, Real> vertices_;
   BaseEdges<Scheme, Real> edges_;
   std::vector<unsigned char> linear_rules_;
-  std::vector<Real> vertex_masks_;
+  std::vector<Real> vertex_masks_, limit_masks_, tangent_masks_;
   std::array<Buffer<Real>, 2> scratch_;
   Buffer<Real> own_values_;
-  LevelOfNet<Real> level_of_net_{net_.topology(), level_, nullptr};
   std::vector<std::vector<std::pair<FaceRow, FaceRow>>> deferred_;  // per worker
 };
 

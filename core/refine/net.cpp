@@ -152,6 +152,7 @@ Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
       present[valence] = true;
     else
       special_vertices_.push_back(v);
+    if (vertex_rules_[v] == VertexRule::dart) darts_.push_back(v);
   }
   for (Index n = 0; n <= kListedValence; ++n)
     if (present[n]) valences_.push_back(n);

@@ -73,6 +73,7 @@ class Net {
   static constexpr Index kListedValence = 64;
   // The vertices that are neither smooth nor darts, or of more edges than are listed, ascending.
   std::span<const Index> special_vertices() const { return special_vertices_; }
+  std::span<const Index> darts() const { return darts_; }  // ascending
   // At levels 0 to max_level + 1; nothing is semi-sharp at levels beyond those listed.
   const SemiSharp& semi_sharp(Index level) const;
   // Sharpness at `level` of a segment of edge e, counted from its lower end; of the one next to its end v.
@@ -101,7 +102,7 @@ class Net {
   std::vector<Index> value_indices_;
   std::vector<VertexRule> vertex_rules_;
   std::vector<EdgeRule> edge_rules_;
-  std::vector<Index> valences_, special_vertices_;
+  std::vector<Index> valences_, special_vertices_, darts_;
   std::vector<Index> semi_sharp_edges_;        // while the net is built
   std::vector<SemiSharp> levels_;              // until nothing is semi-sharp
   std::vector<std::vector<Index>> unsettled_;  // per level of levels_
