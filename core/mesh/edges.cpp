@@ -62,8 +62,8 @@ class EdgeFinder {
     for (Index h = begin; h < end;) {
       // Arrays by their addresses and the count in a register: the compiler cannot know that what is written
       // to the ones changes none of the others.
-      const Fast fast{triangles_.data(), homes_.data(), edges_.of_half_edges.data(),
-                      edges_.vertices.data(), edges_.sides.data()};
+      const Fast fast{triangles_.data(), homes_.data(), edges_.of_half_edges.data(), edges_.vertices.data(),
+                      edges_.sides.data()};
       const Count room = edges_.vertices.size() - kPerFace;
       Index count = count_;
       for (; h < end && count <= room; h += kPerFace) {

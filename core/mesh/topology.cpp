@@ -103,58 +103,100 @@ void Topology::count_edges() {
   }
 }
 
+// Goes counter-clockwise round a vertex from one of its corners on, and writes corners and edges.
+class Topology::Walk {
+ public:
+  Walk(Topology& topology, Index v, Index start)
+      : edge_of_(topology.edges_.of_half_edges.data()),
+        sides_(topology.edges_.sides.data()),
+        corners_(topology.vertex_corners_.data() + topology.vertex_corner_offsets_[v]),
+        edges_(topology.vertex_edges_.data() + topology.vertex_edge_offsets_[v]),
+        all_(topology.vertex_corners(v).size()),
+        start_(start),
+        at_(start),
+        edge_(edge_of_[start]) {}
+
+  std::size_t corner_count() const { return all_; }
+  std::size_t met() const { return met_; }
+  bool came_to_border() const { return at_ == kNoIndex; }
+  // One corner more. False at a border, and back at the start before all corners have been met. It ends by
+  // counting, as a rule: where a corner's other side leads to is known late, and meanwhile the processor goes
+  // on to the next vertex.
+  bool step() {
+    corners_[met_] = at_;
+    edges_[met_++] = edge_;
+    const Index before = prev(at_);
+    edge_ = edge_of_[before];
+    at_ = sides_[edge_][0] ^ sides_[edge_][1] ^ before;
+    if (at_ == kNoIndex) [[unlikely]] {
+      edges_[met_] = edge_;
+      return false;
+    }
+    return (at_ != start_) | (met_ == all_);
+  }
+  bool step_to(std::size_t corners) {
+    while (met_ < corners)
+      if (!step()) [[unlikely]]
+        return false;
+    return true;
+  }
+
+ private:
+  const Index* edge_of_;
+  const std::array<Index, 2>* sides_;
+  Index *corners_, *edges_;
+  std::size_t all_, met_ = 0;
+  Index start_, at_, edge_;
+};
+
 // Writes the corners and edges of all vertices whose faces are one fan, and finds the others.
 Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, const Budget& budget) {
   vertex_corners_.resize(triangles_.size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
+  const auto is_open = [&](Index v) { return !vertex_corners(v).empty() && non_manifold_vertices_[v] == 0; };
+  Index next_poll = 0;
   for (Index v = 0; v < vertex_count_; ++v) {
-    if (v % kVerticesPerPoll == 0)
+    if (v >= next_poll) {
       if (auto stop = budget.poll()) return *stop;
-    if (vertex_corners(v).empty() || non_manifold_vertices_[v] != 0) continue;
+      next_poll = v + kVerticesPerPoll;
+    }
+    if (!is_open(v)) continue;
+    if (v + 1 < vertex_count_ && is_open(v + 1) && go_round_two(first_corners, v)) {
+      ++v;
+      continue;
+    }
     if (!go_round(v, first_corners[v])) non_manifold_vertices_[v] = 1;
   }
   return {};
 }
 
+// Vertices v and v + 1 in step: every step of a walk waits for the one before. False when one of them is not
+// a plain closed fan.
+bool Topology::go_round_two(std::span<const Index> first_corners, Index v) {
+  Walk one(*this, v, first_corners[v]), other(*this, v + 1, first_corners[v + 1]);
+  const std::size_t both = std::min(one.corner_count(), other.corner_count());
+  for (std::size_t k = 0; k < both; ++k)
+    if (!one.step() | !other.step()) [[unlikely]]
+      return false;
+  return one.step_to(one.corner_count()) && other.step_to(other.corner_count());
+}
+
 // Whether the walk from the first corner round v, or from border to border, meets all of v's corners.
 bool Topology::go_round(Index v, Index first_corner) {
-  const Walk walk = write_fan(v, first_corner);
-  if (walk.corners == vertex_corners(v).size()) return true;
-  if (walk.closed) return false;
-  // Clockwise to the border.
+  Walk walk(*this, v, first_corner);
+  if (walk.step_to(walk.corner_count())) return true;
+  if (!walk.came_to_border()) return false;
+  // Clockwise to the other border.
   Index start = first_corner;
   while (true) {
     const Index h = across(edges_.of_half_edges[start], start);
     if (h == kNoIndex) break;
     start = next(h);
   }
-  return start != first_corner && write_fan(v, start).corners == vertex_corners(v).size();
-}
-
-// Writes corners counter-clockwise from `start` on, and their edges, until they come to `start` again or to a
-// border.
-Topology::Walk Topology::write_fan(Index v, Index start) {
-  const std::size_t all = vertex_corners(v).size();
-  Index* const corners = vertex_corners_.data() + vertex_corner_offsets_[v];
-  Index* const edges = vertex_edges_.data() + vertex_edge_offsets_[v];
-  const Index* const edge_of = edges_.of_half_edges.data();
-  Index h = start, e = edge_of[h];
-  // It ends by counting, as a rule: where h leads to is known late, and the processor goes on to the next vertex
-  // meanwhile.
-  for (std::size_t k = 0; k < all; ++k) {
-    corners[k] = h;
-    edges[k] = e;
-    const Index before = prev(h);
-    e = edge_of[before];
-    h = across(e, before);
-    if (h == kNoIndex) [[unlikely]] {
-      edges[k + 1] = e;
-      return {k + 1, false};
-    }
-    if (h == start && k + 1 < all) [[unlikely]]
-      return {k + 1, true};
-  }
-  return {all, true};
+  if (start == first_corner) return walk.met() == walk.corner_count();
+  Walk whole(*this, v, start);
+  whole.step_to(whole.corner_count());
+  return whole.met() == whole.corner_count();
 }
 
 // Writes the corners and edges of the other vertices.

@@ -109,17 +109,14 @@ class Topology {
   static std::span<const Index> slice(const Buffer<Index>& items, const Buffer<Index>& offsets, Index k) {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
+  class Walk;
   Result<void> connect(std::span<const Index> first_corners, const Budget& budget);
   Buffer<Index> count_corners();
   void gather_crowds();
   void count_edges();
   Result<void> go_round_vertices(std::span<const Index> first_corners, const Budget& budget);
   bool go_round(Index v, Index first_corner);
-  struct Walk {
-    std::size_t corners;
-    bool closed;
-  };
-  Walk write_fan(Index v, Index start);
+  bool go_round_two(std::span<const Index> first_corners, Index v);
   void list_non_manifold();
   std::span<const Index> crowd_of(Index e) const;
   // The other of two half-edges along e; kNoIndex at a border.

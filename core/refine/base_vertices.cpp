@@ -94,7 +94,8 @@ void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to,
                                         Index end) const {
   for_each_in(net_.special_vertices(), begin, end,
               [&](Index v) { refine_special(segments(level), from, to, v); });
-  for_each_in(net_.unsettled_vertices(level), begin, end, [&](Index v) { refine_unsettled(level, from, to, v); });
+  for_each_in(net_.unsettled_vertices(level), begin, end,
+              [&](Index v) { refine_unsettled(level, from, to, v); });
 }
 
 template <class Scheme, class Real>

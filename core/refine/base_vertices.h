@@ -17,11 +17,12 @@ class BaseVertices {
  public:
   BaseVertices(const Net& net, const Scheme& scheme, Index width, Smoothing smoothing);
 
-  // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner loops
-  // (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
+  // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner
+  // loops (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
   // closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end) const;
-  // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each neighbour.
+  // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each
+  // neighbour.
   std::vector<Real> smooth_masks() const;
 
   // The same for limits and frames. Not for linear smoothing either.
@@ -36,7 +37,6 @@ class BaseVertices {
   }
 
  private:
-
   // Number of the point of edge e next to its end v.
   Count beside(Count n, Index e, Index v) const {
     const auto& ends = net_.topology().edge_vertices()[e];

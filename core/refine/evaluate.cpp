@@ -22,9 +22,9 @@ using kernels::TriLimit;
 using kernels::TriMasks;
 using kernels::TriStep;
 
-constexpr Count kBlock = 1 << 14;      // points between two polls of the budget, about
+constexpr Count kBlock = 1 << 14;         // points between two polls of the budget, about
 constexpr Count kWorthSharing = 1 << 16;  // scalars of a level: some 50 microseconds
-constexpr Count kLargeFace = 1 << 18;  // points inside a face that is taken in several pieces
+constexpr Count kLargeFace = 1 << 18;     // points inside a face that is taken in several pieces
 
 static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
               "the kernels know the rules by number");

@@ -52,8 +52,9 @@ class FaceWriter {
   void write_four(Index face, Index* out) const {
     const Index *v = topology_.triangles().data() + Count{3} * face,
                 *e = topology_.half_edge_edges().data() + Count{3} * face, first = topology_.vertex_count();
-    const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0], first + e[1], first + e[2],
-                            first + e[0], v[1],         first + e[1], first + e[2], first + e[1], v[2]};
+    const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0],
+                            first + e[1], first + e[2], first + e[0], v[1],
+                            first + e[1], first + e[2], first + e[1], v[2]};
     std::memcpy(out, four, sizeof four);
   }
 
@@ -136,7 +137,8 @@ class FaceWriter {
     // Which of a run's numbers stem from a, and what to add, at a_step 1.
     constexpr Index kAll = ~Index{0};
     constexpr Four kOfA[3] = {{kAll, kAll, 0, kAll}, {0, 0, kAll, kAll}, {0, kAll, 0, 0}};
-    constexpr Four kOffset[6] = {{0, 1, 0, 1}, {1, 0, 1, 2}, {1, 2, 2, 1}, {2, 3, 2, 3}, {3, 2, 3, 4}, {3, 4, 4, 3}};
+    constexpr Four kOffset[6] = {{0, 1, 0, 1}, {1, 0, 1, 2}, {1, 2, 2, 1},
+                                 {2, 3, 2, 3}, {3, 2, 3, 4}, {3, 4, 4, 3}};
     const Index down = a_step == 1 ? 0 : kAll;
     Four at[6], grow[6];
     for (int k = 0; k < 6; ++k) {

@@ -38,10 +38,10 @@ struct TriStep {
 // The limit surface at the values of one level.
 template <class Real>
 struct TriLimit {
-  TriStep<Real> level;                      // `from`, n: the level; `to`: where limits go, may be null
-  Real self, each;                          // limit mask, valence 6
-  // Per valence up to kListedValence: limit weight of a smooth vertex, of each neighbour; and kListedValence pairs
-  // of the neighbours' weights in the two tangents.
+  TriStep<Real> level;  // `from`, n: the level; `to`: where limits go, may be null
+  Real self, each;      // limit mask, valence 6
+  // Per valence up to kListedValence: limit weight of a smooth vertex, of each neighbour; and kListedValence
+  // pairs of the neighbours' weights in the two tangents.
   const Real *vertex_masks, *vertex_tangents;
   Real *tangents_u, *tangents_v, *normals;  // may be null
   // Sets the frame of a vertex whose tangents are too close to parallel, too long or too short for the short
@@ -72,7 +72,8 @@ struct TriKernels {
   void (*refine_edges[4])(const TriStep<Real>&, Index begin, Index end);
   // The points inside faces that stem from the coarse rows [begin, end).
   void (*refine_faces[4])(const TriStep<Real>&, FaceRow begin, FaceRow end);
-  // Limits of the base vertices [begin, end) that are smooth and of a listed valence; the others are left alone.
+  // Limits of the base vertices [begin, end) that are smooth and of a listed valence; the others are left
+  // alone.
   void (*limit_vertices[4])(const TriLimit<Real>&, Index begin, Index end);
   // Limits of the points inside faces; rows are those of the level itself, 1 to n - 2.
   void (*limit_faces[4])(const TriLimit<Real>&, FaceRow begin, FaceRow end);
