@@ -18,7 +18,10 @@ constexpr Index kMostCorners = 64;
 class EdgeFinder {
  public:
   EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets)
-      : triangles_(triangles), corner_offsets_(corner_offsets), homes_(vertex_count) {
+      : triangles_(triangles),
+        corner_offsets_(corner_offsets),
+        // A mesh of mostly unused points goes the slow way: its homes would be many times its size.
+        homes_(vertex_count <= triangles.size() ? vertex_count : 0) {
     for (Home& home : homes_)
       for (Slot& slot : home.slots) slot = {kNoIndex, kNoIndex};
     edges_.of_half_edges.resize(triangles.size());
@@ -59,6 +62,14 @@ class EdgeFinder {
 
   // Half-edges [begin, end).
   void join_faces(Index begin, Index end) {
+    if (homes_.empty()) {
+      for (Index h = begin; h < end; ++h) {
+        if (count_ == edges_.vertices.size()) make_room(edges_.vertices.size() * 3 / 2 + kPerFace);
+        const Index a = triangles_[h], b = triangles_[h % 3 == 2 ? h - 2 : h + 1];
+        count_ = join_elsewhere(count_, h, a, std::min(a, b), std::max(a, b));
+      }
+      return;
+    }
     for (Index h = begin; h < end;) {
       // Arrays by their addresses and the count in a register: the compiler cannot know that what is written
       // to the ones changes none of the others.
@@ -137,11 +148,11 @@ class EdgeFinder {
     return edge.first == h ? count_ : edges_.of_half_edges[edge.first];
   }
   Index edge_at(Index home, Index far) {
-    if (Slot* slot = next_slot(homes_[home], far)) {
+    if (Slot* slot = homes_.empty() ? nullptr : next_slot(homes_[home], far)) {
       if (slot->far == kNoIndex) *slot = {far, count_};
       return slot->edge;
     }
-    if (chains_.empty()) chains_.assign(homes_.size(), kNoIndex);
+    if (chains_.empty()) chains_.assign(vertex_count(), kNoIndex);
     for (Index k = chains_[home]; k != kNoIndex; k = more_[k].next)
       if (more_[k].far == far) return more_[k].edge;
     more_.push_back({far, count_, chains_[home]});
@@ -149,14 +160,16 @@ class EdgeFinder {
     return count_;
   }
 
+  std::size_t vertex_count() const { return corner_offsets_.size() - 1; }
   bool is_hub(Index v) const { return corner_offsets_[v + 1] - corner_offsets_[v] > kMostCorners; }
   // A hub's slots are all taken, by edges to nowhere.
   void mark_hubs() {
     Count hubs = 0;
-    for (Index v = 0; v < homes_.size(); ++v) {
+    for (Index v = 0; v < vertex_count(); ++v) {
       if (!is_hub(v)) continue;
-      for (Slot& slot : homes_[v].slots) slot.far = kNowhere;
       ++hubs;
+      if (homes_.empty()) continue;
+      for (Slot& slot : homes_[v].slots) slot.far = kNowhere;
     }
     if (hubs > 1) sort_between_hubs();
   }

@@ -11,7 +11,7 @@ namespace subdivd::kernels {
   extern const TriKernels<double> kDouble; \
   }
 SUBDIVD_DECLARE(baseline)
-#ifdef __x86_64__
+#ifdef SUBDIVD_NEWER_KERNELS
 SUBDIVD_DECLARE(avx2)
 SUBDIVD_DECLARE(avx512)
 #endif
@@ -27,7 +27,7 @@ const TriKernels<Real>* choose(int set) {
     else
       return &d;
   };
-#ifdef __x86_64__
+#ifdef SUBDIVD_NEWER_KERNELS
   if (set == 2) return pick(avx512::kFloat, avx512::kDouble);
   if (set == 1) return pick(avx2::kFloat, avx2::kDouble);
 #endif
@@ -46,7 +46,7 @@ int best() {
 }  // namespace
 
 bool has_instruction_set(int set) {
-#ifdef __x86_64__
+#ifdef SUBDIVD_NEWER_KERNELS
   if (set == 2)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");

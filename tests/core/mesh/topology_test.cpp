@@ -122,9 +122,23 @@ TEST(Topology, edges_between_hubs_are_found_once) {
   std::vector<Index> triangles;
   for (Index k = 0; k < 100; ++k)
     for (const Index v : {k % 2, 1 - k % 2, k + 2}) triangles.push_back(v);
-  const Topology topology(102, triangles);
-  ASSERT_EQ(topology.edge_count(), 201u);
-  EXPECT_EQ(topology.edge_half_edges(topology.half_edge_edge(0)).size(), 100u);
+  // With a thousand unused points, too: edges are then found in another way.
+  for (const Index points : {102u, 1102u}) {
+    const Topology topology(points, triangles);
+    ASSERT_EQ(topology.edge_count(), 201u);
+    EXPECT_EQ(topology.edge_half_edges(topology.half_edge_edge(0)).size(), 100u);
+  }
+}
+
+TEST(Topology, unused_points_change_nothing) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const Topology with(static_cast<Index>(mesh.point_count()) + 10000, mesh.face_vertex_indices),
+        without = of(mesh);
+    ASSERT_TRUE(std::ranges::equal(with.half_edge_edges(), without.half_edge_edges()));
+    ASSERT_TRUE(std::ranges::equal(with.edge_sides(), without.edge_sides()));
+    ASSERT_TRUE(std::ranges::equal(with.edge_kinds(), without.edge_kinds()));
+  }
 }
 
 TEST(Topology, finds_a_closed_and_an_open_fan_at_one_vertex) {
