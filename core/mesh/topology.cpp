@@ -175,9 +175,11 @@ Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, c
 bool Topology::go_round_two(std::span<const Index> first_corners, Index v) {
   Walk one(*this, v, first_corners[v]), other(*this, v + 1, first_corners[v + 1]);
   const std::size_t both = std::min(one.corner_count(), other.corner_count());
-  for (std::size_t k = 0; k < both; ++k)
-    if (!one.step() | !other.step()) [[unlikely]]
+  for (std::size_t k = 0; k < both; ++k) {
+    const bool on = one.step(), other_on = other.step();
+    if (!on || !other_on) [[unlikely]]
       return false;
+  }
   return one.step_to(one.corner_count()) && other.step_to(other.corner_count());
 }
 
