@@ -6,8 +6,8 @@
 namespace subdivd {
 namespace {
 
-// Between two polls of the budget.
-constexpr Index kFacesPerPoll = 1 << 18;
+// Between two polls of the budget: a millisecond, or some where vertices have many edges.
+constexpr Index kFacesPerPoll = 1 << 15;
 
 // A vertex of more corners keeps no edges: a hub of a million edges must not cost a million steps for each.
 constexpr Index kMostCorners = 64;
@@ -65,7 +65,7 @@ class EdgeFinder {
     if (homes_.empty()) {
       for (Index h = begin; h < end; ++h) {
         if (count_ == edges_.vertices.size()) make_room(edges_.vertices.size() * 3 / 2 + kPerFace);
-        const Index a = triangles_[h], b = triangles_[h % 3 == 2 ? h - 2 : h + 1];
+        const Index a = triangles_[h], b = end_of(h);
         count_ = join_elsewhere(count_, h, a, std::min(a, b), std::max(a, b));
       }
       return;
@@ -160,6 +160,8 @@ class EdgeFinder {
     return count_;
   }
 
+  // The vertex that half-edge h enters.
+  Index end_of(Index h) const { return triangles_[h % 3 == 2 ? h - 2 : h + 1]; }
   std::size_t vertex_count() const { return corner_offsets_.size() - 1; }
   bool is_hub(Index v) const { return corner_offsets_[v + 1] - corner_offsets_[v] > kMostCorners; }
   // A hub's slots are all taken, by edges to nowhere.
@@ -175,7 +177,7 @@ class EdgeFinder {
   }
   void sort_between_hubs() {
     for (Index h = 0; h < triangles_.size(); ++h) {
-      const Index a = triangles_[h], b = triangles_[h % 3 == 2 ? h - 2 : h + 1];
+      const Index a = triangles_[h], b = end_of(h);
       if (is_hub(a) && is_hub(b)) between_hubs_.push_back({std::min(a, b), std::max(a, b), h, h});
     }
     std::ranges::sort(between_hubs_, {},

@@ -8,7 +8,7 @@ namespace subdivd {
 namespace {
 
 // Between two polls of the budget.
-constexpr Index kVerticesPerPoll = 1 << 18;
+constexpr Index kVerticesPerPoll = 1 << 15;
 
 }  // namespace
 
