@@ -52,10 +52,7 @@ class Numbering {
     }
     const Count from_first = vertex - face_begin_;
     const auto face = static_cast<Index>(from_first / inner_points(n_));
-    const Count inner = from_first % inner_points(n_);
-    Count j = 1;
-    while (inner_index(n_, 1, j + 1) <= inner && j + 2 < n_) ++j;
-    const Count i = inner - inner_index(n_, 1, j) + 1;
+    const auto [i, j] = inner_point(n_, from_first % inner_points(n_));
     return {this->vertex(face, i + 1, j), this->vertex(face, i, j + 1), this->vertex(face, i - 1, j + 1),
             this->vertex(face, i - 1, j), this->vertex(face, i, j - 1), this->vertex(face, i + 1, j - 1)};
   }

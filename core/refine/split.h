@@ -15,6 +15,8 @@
 // from j = 1. Triangles: face f owns n^2 triangles starting at f n^2, row by row: upright (i,j) is number n^2
 // - (n-j)^2 + 2i, the inverted one right of it the next.
 
+#include <cmath>
+
 #include "core/base/index.h"
 #include "core/refine/refined_mesh.h"
 
@@ -31,6 +33,14 @@ inline constexpr Count inner_points(Count n) { return n < 3 ? 0 : (n - 1) * (n -
 // Number of inner point (i, j) of a face, 0-based: i, j >= 1 and i + j < n.
 inline constexpr Count inner_index(Count n, Count i, Count j) {
   return (j - 1) * (n - 1) - j * (j - 1) / 2 + (i - 1);
+}
+// The point with that number. (n - 1 - j points a row: from the last row backwards 1, 2, 3, ...)
+inline GridPoint inner_point(Count n, Count index) {
+  const Count behind = inner_points(n) - 1 - index;
+  // Whole roots are exact, and no other comes near a whole number: 8 n^2 is far below 2^53.
+  const auto rows_behind = static_cast<Count>((std::sqrt(8 * static_cast<double>(behind) + 1) - 1) / 2);
+  const Count j = n - 2 - rows_behind;
+  return {static_cast<Index>(index - inner_index(n, 1, j) + 1), static_cast<Index>(j)};
 }
 inline constexpr Count upright_index(Count n, Count i, Count j) { return n * n - (n - j) * (n - j) + 2 * i; }
 

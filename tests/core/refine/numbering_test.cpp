@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "core/refine/refine.h"
 #include "tests/reference/plain.h"
+#include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {
@@ -25,6 +27,22 @@ TEST(Split, inner_points_and_triangles_are_numbered_without_gaps) {
       ++triangle;
     });
     EXPECT_EQ(triangle, n * n);
+  }
+}
+
+TEST(Split, finds_inner_points_by_their_numbers) {
+  const auto expect = [](Count n, Count i, Count j) {
+    const GridPoint point = inner_point(n, inner_index(n, i, j));
+    ASSERT_EQ(point.i, i) << n << ' ' << j;
+    ASSERT_EQ(point.j, j) << n << ' ' << i;
+  };
+  for (Count n : {4, 8, 16, 64})
+    for (Count j = 1; j < n; ++j)
+      for (Count i = 1; i + j < n; ++i) expect(n, i, j);
+  const Count n = segments(kMaxLevel);
+  for (Count j = 1; j + 1 < n; ++j) {
+    expect(n, 1, j);
+    expect(n, n - 1 - j, j);
   }
 }
 
@@ -69,6 +87,29 @@ TEST(Numbering, is_a_bijection_and_faces_agree_along_their_edges) {
         for (Count k = 1; k < n; ++k)
           EXPECT_EQ(places[topology.vertex_count() + e * (n - 1) + k - 1].size(),
                     topology.edge_half_edges(e).size());
+    }
+  }
+}
+
+// Every two neighbours that follow one another make a triangle with the vertex.
+TEST(Numbering, a_regular_ring_goes_round_counter_clockwise) {
+  for (const ControlMesh& mesh : {shapes::icosahedron(), shapes::double_pyramid(5)}) {
+    const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    for (Index level : {1, 2, 3, 4}) {
+      const Numbering numbering(topology, level);
+      std::set<std::array<Index, 3>> triangles;  // from every corner on
+      for (Index f = 0; f < topology.face_count(); ++f)
+        for_each_triangle(numbering.segment_count(),
+                          [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
+                            const Index a = numbering.vertex(f, i0, j0), b = numbering.vertex(f, i1, j1),
+                                        c = numbering.vertex(f, i2, j2);
+                            triangles.insert({{a, b, c}, {b, c, a}, {c, a, b}});
+                          });
+      for (Index v = topology.vertex_count(); v < numbering.vertex_count(); ++v) {
+        const auto ring = numbering.regular_ring(v);
+        for (std::size_t k = 0; k < 6; ++k)
+          ASSERT_TRUE(triangles.contains({v, ring[k], ring[(k + 1) % 6]})) << level << ' ' << v << ' ' << k;
+      }
     }
   }
 }
