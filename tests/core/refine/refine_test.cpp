@@ -176,6 +176,25 @@ TEST(Normals, are_zero_where_all_points_coincide) {
   for (double x : refined->normals) EXPECT_EQ(x, 0);
 }
 
+// Lengths of tangents, their products and squares leave what single precision can hold long before points do.
+TEST(Normals, do_not_depend_on_the_size) {
+  for (ControlMesh mesh : {shapes::double_pyramid(7), shapes::icosahedron()}) {
+    const auto at = [&](double scale, Index level) {
+      ControlMesh scaled = mesh;
+      for (double& x : scaled.points) x *= scale;
+      return *refine<float>(scaled, everything(level), {});
+    };
+    for (const Index level : {0u, 1u, 2u, 3u, 4u}) {
+      const RefinedMesh<float> one = at(1, level);
+      for (const double scale : {1e-18, 1e-9, 1e12, 1e30}) {
+        const RefinedMesh<float> other = at(scale, level);
+        for (std::size_t k = 0; k < one.normals.size(); ++k)
+          ASSERT_NEAR(one.normals[k], other.normals[k], 1e-5) << scale << ' ' << level << ' ' << k;
+      }
+    }
+  }
+}
+
 TEST(Normals, at_a_crease_stand_in_the_middle_of_the_two_sides) {
   ControlMesh mesh;  // a roof: ridge 0-1-2 along y, falling at 45 degrees to both sides
   for (int y = 0; y < 3; ++y)
