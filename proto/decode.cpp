@@ -69,9 +69,9 @@ void override_meshes(RefineRequest& request) {
   }
 }
 
-// Adjacency and rules of a mesh, and of each of its channels and render meshes, while it is refined: measured
-// on a million triangles, rounded up. A point that no face uses takes as much as any other.
-constexpr Count kPlanBytesPerFace = 128, kPlanBytesPerPoint = 32;
+// Adjacency and rules of a mesh, and of each of its channels and render meshes, while it is refined: rounded up
+// from what closed meshes take and from what separate triangles take, with three points and edges a face.
+constexpr Count kPlanBytesPerFace = 112, kPlanBytesPerPoint = 64;
 
 Count plan_bytes(const ControlMesh& mesh) {
   const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, [](const Primvar& primvar) {
