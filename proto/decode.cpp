@@ -69,8 +69,8 @@ void override_meshes(RefineRequest& request) {
   }
 }
 
-// Adjacency and rules of a mesh, and of each of its channels and render meshes, while it is refined: rounded up
-// from what closed meshes take and from what separate triangles take, with three points and edges a face.
+// Adjacency and rules of a mesh, and of each of its channels and render meshes, while it is refined: rounded
+// up from what closed meshes take and from what separate triangles take, with three points and edges a face.
 constexpr Count kPlanBytesPerFace = 112, kPlanBytesPerPoint = 64;
 
 Count plan_bytes(const ControlMesh& mesh) {

@@ -19,11 +19,11 @@ Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangle
   Topology topology;
   topology.vertex_count_ = vertex_count;
   topology.triangles_ = std::move(triangles);
-  const Buffer<Index> first_corners = topology.count_corners();
+  Buffer<Index> first_corners = topology.count_corners();
   auto edges = find_edges(vertex_count, topology.triangles_, topology.vertex_corner_offsets_, budget);
   if (!edges) return std::move(edges).error();
   topology.edges_ = std::move(*edges);
-  if (auto done = topology.connect(first_corners, budget); !done) return std::move(done).error();
+  if (auto done = topology.connect(std::move(first_corners), budget); !done) return std::move(done).error();
   return topology;
 }
 
@@ -35,13 +35,13 @@ Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Inde
   edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
   for (Index h = 0; h < triangles_.size(); ++h) edges_.attach(h, triangles_[h], edges_.of_half_edges[h]);
   edges_.set_kinds();
-  const Buffer<Index> first_corners = count_corners();
-  (void)connect(first_corners, {});  // an unlimited budget
+  (void)connect(count_corners(), {});  // an unlimited budget
 }
 
-// Sets the lengths of the rows of corners; returns the lowest corner at every vertex that has one.
+// Sets the lengths of the rows of corners; returns the lowest corner at every vertex, kNoIndex where there is
+// none, and once more behind the last vertex.
 Buffer<Index> Topology::count_corners() {
-  Buffer<Index> first(vertex_count_);
+  Buffer<Index> first(std::size_t{vertex_count_} + 1, kNoIndex);
   vertex_corner_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
   for (auto h = static_cast<Index>(triangles_.size()); h-- > 0;) {
     const Index v = triangles_[h];
@@ -53,11 +53,12 @@ Buffer<Index> Topology::count_corners() {
   return first;
 }
 
-Result<void> Topology::connect(std::span<const Index> first_corners, const Budget& budget) {
+Result<void> Topology::connect(Buffer<Index> first_corners, const Budget& budget) {
   gather_crowds();
-  count_edges();
+  count_edges(first_corners);
   if (auto stop = budget.poll()) return *stop;
   if (auto done = go_round_vertices(first_corners, budget); !done) return done;
+  go_round_borders();
   list_non_manifold();
   return {};
 }
@@ -83,10 +84,11 @@ std::span<const Index> Topology::crowd_of(Index e) const {
   return std::span(crowd_half_edges_).subspan(crowd_offsets_[k], crowd_offsets_[k + 1] - crowd_offsets_[k]);
 }
 
-// Sets the lengths of the rows of edges from those of corners, and finds the ends of non-manifold edges.
+// Sets the lengths of the rows of edges from those of corners, finds the ends of non-manifold edges, and
+// takes the first corners from the vertices that are not closed fans.
 // Every corner is at two edges, and an edge is at as many of v's corners as it has faces: 2 for most, so v
 // has as many edges as corners, and half of (2 - faces) more for each that has not two.
-void Topology::count_edges() {
+void Topology::count_edges(std::span<Index> first_corners) {
   non_manifold_vertices_.assign(vertex_count_, 0);
   vertex_edge_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
   for_each_set(edge_kinds(), [&](std::size_t e) {
@@ -94,6 +96,7 @@ void Topology::count_edges() {
     for (const Index v : edges_.vertices[e]) {
       vertex_edge_offsets_[v + 1] += 2 - static_cast<Index>(edge_half_edges(edge).size());  // modulo 2^32
       if (!is_boundary(edge)) non_manifold_vertices_[v] = 1;
+      first_corners[v] = kNoIndex;
     }
   });
   std::int64_t more = 0;
@@ -103,7 +106,7 @@ void Topology::count_edges() {
   }
 }
 
-// Goes counter-clockwise round a vertex from one of its corners on, and writes corners and edges.
+// Goes counter-clockwise round a vertex whose edges all have two faces, and writes corners and edges.
 class Topology::Walk {
  public:
   Walk(Topology& topology, Index v, Index start)
@@ -116,32 +119,38 @@ class Topology::Walk {
         at_(start),
         edge_(edge_of_[start]) {}
 
-  std::size_t corner_count() const { return all_; }
-  std::size_t met() const { return met_; }
-  bool came_to_border() const { return at_ == kNoIndex; }
-  // One corner more. False at a border, and back at the start before all corners have been met. It ends by
-  // counting, as a rule: where a corner's other side leads to is known late, and meanwhile the processor goes
-  // on to the next vertex.
-  bool step() {
+  // To the end; whether it comes back to the start there and not before. It ends by counting: where a
+  // corner's other side leads to is known late, and meanwhile the processor goes on to the next vertex.
+  bool go_on() {
+    while (met_ < all_) {
+      step();
+      if (at_ == start_) [[unlikely]]
+        break;
+    }
+    return at_ == start_ && met_ == all_;
+  }
+  // All but the shorter one's last step, by turns: every step of a walk waits for the one before. False when
+  // one comes back to its start.
+  static bool go_together(Walk& one, Walk& other) {
+    const std::size_t both = std::min(one.all_, other.all_);
+    while (one.met_ + 1 < both) {
+      one.step();
+      other.step();
+      if ((one.at_ == one.start_) | (other.at_ == other.start_)) [[unlikely]]
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  [[gnu::always_inline]] void step() {
     corners_[met_] = at_;
     edges_[met_++] = edge_;
     const Index before = prev(at_);
     edge_ = edge_of_[before];
     at_ = sides_[edge_][0] ^ sides_[edge_][1] ^ before;
-    if (at_ == kNoIndex) [[unlikely]] {
-      edges_[met_] = edge_;
-      return false;
-    }
-    return (at_ != start_) | (met_ == all_);
-  }
-  bool step_to(std::size_t corners) {
-    while (met_ < corners)
-      if (!step()) [[unlikely]]
-        return false;
-    return true;
   }
 
- private:
   const Index* edge_of_;
   const std::array<Index, 2>* sides_;
   Index *corners_, *edges_;
@@ -149,56 +158,47 @@ class Topology::Walk {
   Index start_, at_, edge_;
 };
 
-// Writes the corners and edges of all vertices whose faces are one fan, and finds the others.
+// Writes the rows of all vertices whose faces are one closed fan, and finds those where several meet.
 Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, const Budget& budget) {
   vertex_corners_.resize(triangles_.size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
-  const auto is_open = [&](Index v) { return !vertex_corners(v).empty() && non_manifold_vertices_[v] == 0; };
   Index next_poll = 0;
   for (Index v = 0; v < vertex_count_; ++v) {
     if (v >= next_poll) {
       if (auto stop = budget.poll()) return *stop;
       next_poll = v + kVerticesPerPoll;
     }
-    if (!is_open(v)) continue;
-    if (v + 1 < vertex_count_ && is_open(v + 1) && go_round_two(first_corners, v)) {
-      ++v;
-      continue;
+    if (first_corners[v] == kNoIndex) continue;
+    Walk one(*this, v, first_corners[v]);
+    if (first_corners[v + 1] != kNoIndex) {
+      Walk other(*this, v + 1, first_corners[v + 1]);
+      if (Walk::go_together(one, other) && one.go_on() && other.go_on()) {
+        ++v;
+        continue;
+      }
+      one = Walk(*this, v, first_corners[v]);
     }
-    if (!go_round(v, first_corners[v])) non_manifold_vertices_[v] = 1;
+    if (!one.go_on()) non_manifold_vertices_[v] = 1;
   }
   return {};
 }
 
-// Vertices v and v + 1 in step: every step of a walk waits for the one before. False when one of them is not
-// a plain closed fan.
-bool Topology::go_round_two(std::span<const Index> first_corners, Index v) {
-  Walk one(*this, v, first_corners[v]), other(*this, v + 1, first_corners[v + 1]);
-  const std::size_t both = std::min(one.corner_count(), other.corner_count());
-  for (std::size_t k = 0; k < both; ++k) {
-    const bool on = one.step(), other_on = other.step();
-    if (!on || !other_on) [[unlikely]]
-      return false;
-  }
-  return one.step_to(one.corner_count()) && other.step_to(other.corner_count());
-}
-
-// Whether the walk from the first corner round v, or from border to border, meets all of v's corners.
-bool Topology::go_round(Index v, Index first_corner) {
-  Walk walk(*this, v, first_corner);
-  if (walk.step_to(walk.corner_count())) return true;
-  if (!walk.came_to_border()) return false;
-  // Clockwise to the other border.
-  Index start = first_corner;
-  while (true) {
-    const Index h = across(edges_.of_half_edges[start], start);
-    if (h == kNoIndex) break;
-    start = next(h);
-  }
-  if (start == first_corner) return walk.met() == walk.corner_count();
-  Walk whole(*this, v, start);
-  whole.step_to(whole.corner_count());
-  return whole.met() == whole.corner_count();
+// Writes the rows of all vertices whose faces are one open fan: it starts at the border's half-edge that
+// leaves the vertex.
+void Topology::go_round_borders() {
+  for_each_set(edge_kinds(), [&](std::size_t e) {
+    if (!is_boundary(static_cast<Index>(e))) return;
+    const Index start = edge_half_edges(static_cast<Index>(e))[0], v = triangles_[start];
+    if (is_non_manifold_vertex(v)) return;
+    Index* corner = vertex_corners_.data() + vertex_corner_offsets_[v];
+    Index* edge = vertex_edges_.data() + vertex_edge_offsets_[v];
+    for (Index h = start; h != kNoIndex; h = across(*edge, prev(h))) {
+      *corner++ = h;
+      *edge++ = edges_.of_half_edges[h];
+      *edge = edges_.of_half_edges[prev(h)];
+    }
+    if (corner != vertex_corners_.data() + vertex_corner_offsets_[v + 1]) non_manifold_vertices_[v] = 1;
+  });
 }
 
 // Writes the corners and edges of the other vertices.

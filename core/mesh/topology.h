@@ -110,13 +110,12 @@ class Topology {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
   class Walk;
-  Result<void> connect(std::span<const Index> first_corners, const Budget& budget);
+  Result<void> connect(Buffer<Index> first_corners, const Budget& budget);
   Buffer<Index> count_corners();
   void gather_crowds();
-  void count_edges();
+  void count_edges(std::span<Index> first_corners);
   Result<void> go_round_vertices(std::span<const Index> first_corners, const Budget& budget);
-  bool go_round(Index v, Index first_corner);
-  bool go_round_two(std::span<const Index> first_corners, Index v);
+  void go_round_borders();
   void list_non_manifold();
   std::span<const Index> crowd_of(Index e) const;
   // The other of two half-edges along e; kNoIndex at a border.
