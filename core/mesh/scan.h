@@ -46,9 +46,15 @@ inline bool all_within(std::span<const double> values, double limit) {
 }
 
 inline bool all_below(std::span<const Index> indices, Count limit) {
-  Index largest = 0;
-  for (const Index index : indices) largest = std::max(largest, index);
-  return indices.empty() || largest < limit;
+  constexpr Count kSigned = Count{1} << 31;
+  if (indices.empty()) return true;
+  if (limit == 0) return false;
+  if (limit > kSigned) return *std::ranges::max_element(indices) < limit;
+  // Sign bits: of an index too large for a signed one, and of what a smaller one exceeds the last by.
+  const auto last = static_cast<Index>(limit - 1);
+  Index any = 0;
+  for (const Index index : indices) any |= (last - index) | index;
+  return any < kSigned;
 }
 
 // Whether one of the triangles (3 indices each) names a vertex twice.

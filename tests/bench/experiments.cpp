@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <thread>
 #include <vector>
 
 #include "tests/bench/memory_count.h"
@@ -186,6 +187,22 @@ double time_threads(const Case& cell, const Pace& pace, Results& results) {
   };
   enter("ours", 2);
   enter("base", 1);
+  // What the memory lets two threads gain.
+  const auto fill = [&out](Index part) {
+    const auto half = [part](auto& items) {
+      const std::size_t begin = items.size() / 2 * part, end = part == 0 ? items.size() / 2 : items.size();
+      std::memset(items.data() + begin, 1, (end - begin) * sizeof items[0]);
+    };
+    half(out.points);
+    half(out.triangles);
+  };
+  contest.enter("memset", [&fill] {
+    return timed("threads", [&fill] {
+      std::thread other(fill, 1);
+      fill(0);
+      other.join();
+    });
+  });
   return contest.hold(pace, cell.name(), "threads", results);
 }
 
