@@ -53,6 +53,7 @@ Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceH
     if (!split) return std::move(split).error();
     history.triangulated = std::move(*split);
   }
+  if (mesh.check()) return {};  // most meshes need no repair, and are looked at once
   const std::size_t faces = mesh.face_count();
   Result<std::vector<Index>> kept = drop_degenerate_faces(mesh);
   if (!kept) return std::move(kept).error();
