@@ -1,0 +1,281 @@
+#include "core/curves/bspline.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "core/curves/precision.h"
+
+namespace subdivd {
+namespace {
+
+constexpr std::size_t kMost = kMaxDegree + 1;
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
+
+// --- Derivatives of the basis -----------------------------------------------------------------------------
+
+// Basis functions of all degrees 0..p on a span, in the upper triangle, and the knot differences that they
+// were divided by, in the lower.   [PieglTiller97, A2.3]
+struct Triangle {
+  std::array<std::array<double, kMost>, kMost> rows;
+
+  Triangle(std::span<const double> knots, Index p, Count span, double t) {
+    rows[0][0] = 1;
+    for (Index j = 1; j <= p; ++j) {
+      double saved = 0;
+      for (Index r = 0; r < j; ++r) {
+        const double above = knots[span + r + 1], below = knots[span + 1 + r - j];
+        rows[j][r] = above - below;
+        const double part = rows[r][j - 1] / rows[j][r];
+        rows[r][j] = saved + (above - t) * part;
+        saved = (t - below) * part;
+      }
+      rows[j][j] = saved;
+    }
+  }
+};
+
+// Derivatives of basis function r (counted on the span), of order 1 to `order` <= p, without their factors
+// p! / (p - d)!.
+void derivatives_of_one(const Triangle& triangle, Index p, Index r, Index order, std::span<double> values) {
+  std::array<std::array<double, kMost>, 2> a{};
+  Index now = 0, before = 1;
+  a[now][0] = 1;
+  for (Index d = 1; d <= order; ++d) {
+    std::swap(now, before);
+    double sum = 0;
+    const Index rest = p - d;
+    if (r >= d) {
+      a[now][0] = a[before][0] / triangle.rows[rest + 1][r - d];
+      sum = a[now][0] * triangle.rows[r - d][rest];
+    }
+    const Index first = r + 1 >= d ? 1 : d - r;
+    const Index last = r <= rest + 1 ? d - 1 : p - r;
+    for (Index j = first; j <= last; ++j) {
+      a[now][j] = (a[before][j] - a[before][j - 1]) / triangle.rows[rest + 1][r + j - d];
+      sum += a[now][j] * triangle.rows[r + j - d][rest];
+    }
+    if (r <= rest) {
+      a[now][d] = -a[before][d - 1] / triangle.rows[rest + 1][r];
+      sum += a[now][d] * triangle.rows[r][rest];
+    }
+    values[Count{d} * (p + 1) + r] = sum;
+  }
+}
+
+// The stored points on a span, weighted by one row of basis values.
+void combine(const Spline& spline, Count span, std::span<const double> basis, std::span<double> point) {
+  std::ranges::fill(point, 0.0);
+  for (Index j = 0; j <= spline.degree; ++j) {
+    const std::span<const double> control = spline.point(span - spline.degree + j);
+    for (Index k = 0; k < spline.width; ++k) point[k] += basis[j] * control[k];
+  }
+}
+
+// Rows of homogeneous derivatives A^(d), w^(d) into those of the curve.
+void divide_by_weight(std::span<const double> stored, Index dimension, Index order, std::span<double> rows) {
+  const Index width = dimension + 1;
+  const auto weight = [&](Index d) { return stored[Count{d} * width + dimension]; };
+  for (Index d = 0; d <= order; ++d)
+    for (Index k = 0; k < dimension; ++k) {
+      double value = stored[Count{d} * width + k];
+      double binomial = 1;
+      for (Index i = 1; i <= d; ++i) {
+        binomial = binomial * (d - i + 1) / i;
+        value -= binomial * weight(i) * rows[Count{d - i} * dimension + k];
+      }
+      rows[Count{d} * dimension + k] = value / weight(0);
+    }
+}
+
+}  // namespace
+
+void basis_functions(std::span<const double> knots, Index degree, Count span, double t,
+                     std::span<double> values) {
+  assert(values.size() == Count{degree} + 1);
+  values[0] = 1;
+  for (Index j = 1; j <= degree; ++j) {
+    double saved = 0;
+    for (Index r = 0; r < j; ++r) {
+      const double above = knots[span + r + 1], below = knots[span + 1 + r - j];
+      const double part = values[r] / (above - below);
+      values[r] = saved + (above - t) * part;
+      saved = (t - below) * part;
+    }
+    values[j] = saved;
+  }
+}
+
+void basis_derivatives(std::span<const double> knots, Index degree, Count span, double t, Index order,
+                       std::span<double> values) {
+  assert(values.size() == (Count{order} + 1) * (Count{degree} + 1));
+  const Triangle triangle(knots, degree, span, t);
+  std::ranges::fill(values, 0.0);
+  const Index highest = std::min(order, degree);
+  for (Index r = 0; r <= degree; ++r) {
+    values[r] = triangle.rows[r][degree];
+    derivatives_of_one(triangle, degree, r, highest, values);
+  }
+  double factor = 1;
+  for (Index d = 1; d <= highest; ++d) {
+    factor *= degree - d + 1;
+    for (Index r = 0; r <= degree; ++r) values[Count{d} * (degree + 1) + r] *= factor;
+  }
+}
+
+Result<void> evaluate(const Spline& spline, double t, std::span<double> point) {
+  assert(point.size() == spline.dimension());
+  const Result<double> parameter = check_parameter(spline, t);
+  if (!parameter) return parameter.error();
+  const Count span = find_span(spline, *parameter);
+  std::array<double, kMost> basis;
+  const std::span<double> values = std::span(basis).first(spline.degree + 1);
+  basis_functions(spline.knots, spline.degree, span, *parameter, values);
+  if (!spline.rational) {
+    combine(spline, span, values, point);
+  } else {
+    std::vector<double> stored(spline.width);
+    combine(spline, span, values, stored);
+    for (Index k = 0; k < spline.dimension(); ++k) point[k] = stored[k] / stored[spline.dimension()];
+  }
+  if (!all_finite(point)) return does_not_fit();
+  return {};
+}
+
+Result<void> derivatives(const Spline& spline, double t, Index order, std::span<double> rows) {
+  assert(rows.size() == (Count{order} + 1) * spline.dimension());
+  const Result<double> parameter = check_parameter(spline, t);
+  if (!parameter) return parameter.error();
+  const Count span = find_span(spline, *parameter);
+  const Count functions = Count{spline.degree} + 1;
+  std::vector<double> basis((Count{order} + 1) * functions);
+  basis_derivatives(spline.knots, spline.degree, span, *parameter, order, basis);
+  std::vector<double> stored((Count{order} + 1) * spline.width);
+  for (Index d = 0; d <= order; ++d)
+    combine(spline, span, std::span(basis).subspan(d * functions, functions),
+            std::span(stored).subspan(Count{d} * spline.width, spline.width));
+  if (spline.rational)
+    divide_by_weight(stored, spline.dimension(), order, rows);
+  else
+    std::ranges::copy(stored, rows.begin());
+  if (!all_finite(rows)) return does_not_fit();
+  return {};
+}
+
+// De Boor's triangle from its tip down: what weight the tip gives to every point of a row.
+void blossom_weights(std::span<const double> knots, Index degree, Count span,
+                     std::span<const double> arguments, std::span<double> weights) {
+  assert(arguments.size() == degree && weights.size() == Count{degree} + 1);
+  std::ranges::fill(weights, 0.0);
+  weights[degree] = 1;
+  for (Index r = degree; r >= 1; --r)
+    for (Index j = r; j <= degree; ++j) {
+      const double low = knots[span - degree + j], high = knots[span + 1 + j - r];
+      const double share = (arguments[r - 1] - low) / (high - low);
+      weights[j - 1] += (1 - share) * weights[j];
+      weights[j] *= share;
+    }
+}
+
+// --- Many parameters --------------------------------------------------------------------------------------
+
+namespace {
+
+// Reciprocals of the six knot differences that a cubic's basis on a span is divided by, as
+// basis_functions() comes by them.
+constexpr std::size_t kInverses = 6;
+std::array<double, kInverses> inverses_of(std::span<const double> u, Count k) {
+  if (!(u[k] < u[k + 1])) return {};
+  return {1 / (u[k + 1] - u[k]),     1 / (u[k + 1] - u[k - 1]), 1 / (u[k + 2] - u[k]),
+          1 / (u[k + 1] - u[k - 2]), 1 / (u[k + 2] - u[k - 1]), 1 / (u[k + 3] - u[k])};
+}
+
+}  // namespace
+
+SplineEvaluator::SplineEvaluator(const Spline& spline)
+    : degree_(spline.degree),
+      width_(spline.width),
+      dimension_(spline.dimension()),
+      rational_(spline.rational),
+      knots_(spline.knots),
+      points_(spline.points),
+      begin_(spline.begin()),
+      end_(spline.end()) {
+  const Count spans = spline.point_count() - degree_;
+  cells_per_unit_ = static_cast<double>(spans) / (end_ - begin_);
+  first_spans_.resize(spans + 2);
+  // By the very arithmetic that will look a cell up, so that a knot's cell never lies behind its points'.
+  Count span = degree_;
+  const Count last = find_span(spline, end_);
+  for (Count cell = 0; cell < first_spans_.size(); ++cell) {
+    while (span < last && static_cast<Count>((knots_[span + 1] - begin_) * cells_per_unit_) < cell) ++span;
+    first_spans_[cell] = static_cast<Index>(span);
+  }
+  if (degree_ != 3) return;
+  inverse_.resize((spline.point_count() + 1) * kInverses);
+  for (Count k = degree_; k < spline.point_count(); ++k)
+    std::ranges::copy(inverses_of(knots_, k), inverse_.begin() + static_cast<std::ptrdiff_t>(k * kInverses));
+}
+
+Count SplineEvaluator::span_of(double t) const {
+  const auto cell = static_cast<Count>((t - begin_) * cells_per_unit_);
+  Count low = first_spans_[cell], high = first_spans_[cell + 1];
+  // Most cells hold a knot or two.
+  if (high - low < 4) {
+    while (low < high && knots_[low + 1] <= t) ++low;
+    return low;
+  }
+  const auto first = knots_.begin() + static_cast<std::ptrdiff_t>(low) + 1;
+  const auto last = knots_.begin() + static_cast<std::ptrdiff_t>(high) + 1;
+  return static_cast<Count>(std::upper_bound(first, last, t) - knots_.begin()) - 1;
+}
+
+template <Index kWidth>
+void SplineEvaluator::evaluate_cubic(std::span<const double> ts, std::span<double> points) const {
+  double* out = points.data();
+  for (const double t : ts) {
+    const Count k = span_of(t);
+    const double* u = knots_.data() + k;
+    const double* inverse = inverse_.data() + k * kInverses;
+    const double l1 = t - u[0], l2 = t - *(u - 1), l3 = t - *(u - 2);
+    const double r1 = u[1] - t, r2 = u[2] - t, r3 = u[3] - t;
+    const double a = r1 * inverse[0] * inverse[1], b = l1 * inverse[0] * inverse[2];
+    const double c = r1 * a * inverse[3], d = (l2 * a + r2 * b) * inverse[4], e = l1 * b * inverse[5];
+    const double basis[4] = {r1 * c, l3 * c + r2 * d, l2 * d + r3 * e, l1 * e};
+    const double* control = points_.data() + (k - 3) * kWidth;
+    for (Index x = 0; x < kWidth; ++x)
+      out[x] = (basis[0] * control[x] + basis[1] * control[kWidth + x]) +
+               (basis[2] * control[2 * kWidth + x] + basis[3] * control[3 * kWidth + x]);
+    out += kWidth;
+  }
+}
+
+void SplineEvaluator::evaluate_any(std::span<const double> ts, std::span<double> points) const {
+  std::array<double, kMost> basis;
+  const std::span<double> values = std::span(basis).first(degree_ + 1);
+  std::vector<double> stored(width_);
+  double* out = points.data();
+  for (const double t : ts) {
+    const Count span = span_of(t);
+    basis_functions(knots_, degree_, span, t, values);
+    std::ranges::fill(stored, 0.0);
+    const double* control = points_.data() + (span - degree_) * width_;
+    for (const double weight : values)
+      for (Index k = 0; k < width_; ++k) stored[k] += weight * *control++;
+    const double divisor = rational_ ? stored[dimension_] : 1;
+    for (Index k = 0; k < dimension_; ++k) *out++ = stored[k] / divisor;
+  }
+}
+
+void SplineEvaluator::evaluate(std::span<const double> ts, std::span<double> points) const {
+  assert(points.size() == ts.size() * dimension_);
+  if (degree_ == 3 && !rational_ && width_ == 3) return evaluate_cubic<3>(ts, points);
+  if (degree_ == 3 && !rational_ && width_ == 2) return evaluate_cubic<2>(ts, points);
+  evaluate_any(ts, points);
+}
+
+}  // namespace subdivd

@@ -1,0 +1,93 @@
+#include "core/curves/knot_insertion.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/curves/passage.h"
+
+namespace subdivd {
+namespace {
+
+// Inserts t once where the passage stands; no t before was larger.
+//   Q_i = (1 - a_i) P_{i-1} + a_i P_i,  a_i = (t - u_i) / (u_{i+p} - u_i)  for k - p < i < first
+// where u_k is the last knot <= t and u_first the first that equals it (k + 1: there is none); points before
+// them stay, those behind move up.   [Boehm80]
+void insert(Passage& passage, double t) {
+  passage.go_to(t);
+  Spline& done = passage.done();
+  const Index p = done.degree, width = done.width;
+  const Count k = done.knots.size() - 1;
+  Count first = k + 1;
+  while (first > 0 && done.knots[first - 1] == t) --first;
+  const auto at = [&](Count i) { return done.points.begin() + static_cast<std::ptrdiff_t>(i * width); };
+  const std::vector<double> moved(at(first - 1), at(first));
+  done.points.insert(at(first), moved.begin(), moved.end());
+  for (Count i = first - 1; i + p > k; --i) {
+    const double low = done.knots[i], share = (t - low) / (passage.knot(i + p) - low);
+    for (Index x = 0; x < width; ++x) {
+      double& value = done.points[i * width + x];
+      value = (1 - share) * done.points[(i - 1) * width + x] + share * value;
+    }
+  }
+  done.knots.push_back(t);
+}
+
+Error too_often(double t, Index degree, Count times, bool at_end) {
+  return Error{ErrorCode::out_of_range,
+               "the knot " + std::to_string(t) + " would stand " + std::to_string(times) +
+                   " times; at most " + std::to_string(degree + (at_end ? 1 : 0)) + " are possible " +
+                   (at_end ? "at the end of the domain" : "inside the domain") + " of a curve of degree " +
+                   std::to_string(degree),
+               {},
+               0,
+               0};
+}
+
+// Of `times` more knots t.
+Result<void> check_room(const Spline& spline, double t, Count times) {
+  // Modulo the period there may be several places; a knot has one.
+  if (!(t >= spline.begin() && t <= spline.end()))
+    return Error{ErrorCode::out_of_range,
+                 "the knot " + std::to_string(t) + " lies outside the domain, " +
+                     std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
+                 {},
+                 0,
+                 0};
+  const bool at_end = t == spline.begin() || t == spline.end();
+  const Count all = multiplicity(spline.knots, t) + times;
+  if (all > Count{spline.degree} + (at_end ? 1 : 0)) return too_often(t, spline.degree, all, at_end);
+  return {};
+}
+
+}  // namespace
+
+Result<Spline> insert_knot(const Spline& spline, double t, Index times) {
+  if (auto room = check_room(spline, t, times); !room) return std::move(room).error();
+  Passage passage(spline, times);
+  for (Index k = 0; k < times; ++k) insert(passage, t);
+  return passage.finish();
+}
+
+Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots) {
+  for (Count first = 0; first < knots.size();) {
+    Count next = first;
+    while (next < knots.size() && knots[next] == knots[first]) ++next;
+    if (next == first || (next < knots.size() && knots[next] < knots[first]))
+      return Error{ErrorCode::out_of_range,
+                   "the knots to insert must be numbers that never fall",
+                   {std::uint64_t{next}},
+                   0,
+                   0};
+    if (auto room = check_room(spline, knots[first], next - first); !room) {
+      room.error().where = {std::uint64_t{first}};
+      return std::move(room).error();
+    }
+    first = next;
+  }
+  Passage passage(spline, knots.size());
+  for (const double t : knots) insert(passage, t);
+  return passage.finish();
+}
+
+}  // namespace subdivd
