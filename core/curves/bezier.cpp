@@ -25,7 +25,7 @@ std::vector<double> missing_knots(const Spline& spline) {
 }  // namespace
 
 std::vector<BezierPiece> bezier_pieces(const Spline& spline) {
-  const Result<Spline> refined = refine_knots(spline, missing_knots(spline));
+  const Result<Spline> refined = refine_knots(spline, missing_knots(spline), {});
   assert(refined.ok());
   const Index p = spline.degree;
   std::vector<BezierPiece> pieces;

@@ -195,7 +195,7 @@ Result<Approximation> reduce_degree(const Spline& spline, const Budget& budget) 
     if (next - i == 1) lacking.push_back(given->knots[i]);
     i = next;
   }
-  const auto goal = refine_knots(*given, lacking);
+  const auto goal = refine_knots(*given, lacking, budget);
   if (!goal) return goal.error();
   const auto matrix = elevation(knots, spline.degree - 1, budget);
   if (!matrix) return matrix.error();

@@ -49,7 +49,7 @@ Result<Spline> part(const Spline& spline, double from, double to) {
   if (!(from < to)) return Error{ErrorCode::out_of_range, "the part must end behind its start", {"to"}, 0, 0};
   std::vector<double> knots = missing(spline, from);
   for (const double t : missing(spline, to)) knots.push_back(t);
-  auto refined = refine_knots(spline, knots);
+  auto refined = refine_knots(spline, knots, {});
   if (!refined) return std::move(refined).error();
   const Index p = spline.degree;
   // The last knot at `from` and the first at `to`: the points of the spans between them.

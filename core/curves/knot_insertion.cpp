@@ -1,6 +1,7 @@
 #include "core/curves/knot_insertion.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 
 namespace subdivd {
 namespace {
+
+constexpr Count kInsertionsPerPoll = 4096;
 
 // Inserts t once where the passage stands; no t before was larger.
 //   Q_i = (1 - a_i) P_{i-1} + a_i P_i,  a_i = (t - u_i) / (u_{i+p} - u_i)  for k - p < i < first
@@ -69,7 +72,7 @@ Result<Spline> insert_knot(const Spline& spline, double t, Index times) {
   return passage.finish();
 }
 
-Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots) {
+Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots, const Budget& budget) {
   for (Count first = 0; first < knots.size();) {
     Count next = first;
     while (next < knots.size() && knots[next] == knots[first]) ++next;
@@ -86,8 +89,53 @@ Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots)
     first = next;
   }
   Passage passage(spline, knots.size());
-  for (const double t : knots) insert(passage, t);
+  for (Count k = 0; k < knots.size(); ++k) {
+    if (k % kInsertionsPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    insert(passage, knots[k]);
+  }
   return passage.finish();
+}
+
+Count refined_point_count(const Spline& spline, Index level) {
+  Count spans = 0;
+  for (Count k = spline.degree; k < spline.point_count(); ++k) spans += spline.knots[k] < spline.knots[k + 1];
+  return spline.point_count() + spans * ((Count{1} << level) - 1);
+}
+
+Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget) {
+  const Count points = refined_point_count(spline, level);
+  if (points > kMaxIndexCount)
+    return Error{
+        ErrorCode::too_large,
+        "the refined curve would have more points than 32-bit indices can number: choose a lower level",
+        {},
+        points,
+        kMaxIndexCount};
+  if (auto room = budget.check_bytes(points * (spline.width + 1) * sizeof(double)); !room)
+    return std::move(room).error();
+  // Level by level, so that a knot is the middle of its neighbours to the bit; together they ascend.
+  std::vector<double> knots;
+  knots.reserve(points - spline.point_count());
+  const Count parts = Count{1} << level;
+  std::vector<double> span(parts + 1);
+  for (Count k = spline.degree; k < spline.point_count(); ++k) {
+    if (!(spline.knots[k] < spline.knots[k + 1])) continue;
+    span[0] = spline.knots[k];
+    span[parts] = spline.knots[k + 1];
+    for (Count step = parts; step > 1; step /= 2)
+      for (Count i = step / 2; i < parts; i += step)
+        span[i] = span[i - step / 2] + (span[i + step / 2] - span[i - step / 2]) / 2;
+    if (std::ranges::adjacent_find(span, std::greater_equal<>()) != span.end())
+      return Error{ErrorCode::out_of_range,
+                   "the knots " + std::to_string(span[0]) + " and " + std::to_string(span[parts]) +
+                       " are too close to put " + std::to_string(parts - 1) + " between them",
+                   {"knots", std::uint64_t{k}},
+                   0,
+                   0};
+    knots.insert(knots.end(), span.begin() + 1, span.end() - 1);
+  }
+  return refine_knots(spline, knots, budget);
 }
 
 }  // namespace subdivd

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/spline.h"
 
@@ -16,6 +17,13 @@ Result<Spline> insert_knot(const Spline& spline, double t, Index times);
 // Inserts all of `knots` (ascending, each as often as it stands there) at once, in time linear in the points
 // of the answer. Limits as above, the place of the first knot that breaks them being {i}.
 //   [CohenLycheRiesenfeld80 (Oslo); PieglTiller97, A5.4]
-Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots);
+Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots, const Budget& budget);
+
+// The curve with every span of its domain cut into 2^level equal ones: what refining means for a curve on
+// knots. Halving again and again leads to the same knots. too_large beyond 32-bit numbers of points or the
+// budget's bytes.
+Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget);
+// Its number of points: n + (spans that are not empty) (2^level - 1).
+Count refined_point_count(const Spline& spline, Index level);
 
 }  // namespace subdivd

@@ -71,7 +71,7 @@ TEST(KnotInsertion, of_many_is_one_after_the_other) {
       knots.insert(knots.end(), std::min<Index>(room, 3), t);
     }
     std::ranges::sort(knots);
-    const auto together = refine_knots(spline, knots);
+    const auto together = refine_knots(spline, knots, {});
     ASSERT_TRUE(together) << name;
     Spline one = spline;
     for (const double t : knots) {
@@ -104,10 +104,10 @@ TEST(KnotInsertion, refuses_too_many_and_what_lies_outside) {
   EXPECT_EQ(insert_knot(circle, std::nan(""), 1).error().code, ErrorCode::out_of_range);
   EXPECT_TRUE(insert_knot(circle, 0.5, 2));
   const std::vector<double> falling{0.5, 0.25}, full{0.5, 0.5, 0.5}, late{0.25, 0.5, 1}, none{std::nan("")};
-  EXPECT_EQ(refine_knots(circle, falling).error().where, Path{std::uint64_t{1}});
-  EXPECT_EQ(refine_knots(circle, full).error().where, Path{std::uint64_t{0}});
-  EXPECT_EQ(refine_knots(circle, late).error().where, Path{std::uint64_t{2}});
-  EXPECT_FALSE(refine_knots(circle, none).ok());
+  EXPECT_EQ(refine_knots(circle, falling, {}).error().where, Path{std::uint64_t{1}});
+  EXPECT_EQ(refine_knots(circle, full, {}).error().where, Path{std::uint64_t{0}});
+  EXPECT_EQ(refine_knots(circle, late, {}).error().where, Path{std::uint64_t{2}});
+  EXPECT_FALSE(refine_knots(circle, none, {}).ok());
 }
 
 // A quarter of a million of knots: in linear time it takes no time at all.
@@ -118,10 +118,46 @@ TEST(KnotInsertion, of_many_takes_time_by_their_number) {
   for (int k = 0; k < 2 * kPoints; ++k) spline.points.push_back(std::sin(k));
   std::vector<double> knots;
   for (int k = 3; k < kPoints; ++k) knots.push_back(k + 0.5);
-  const auto refined = refine_knots(spline, knots);
+  const auto refined = refine_knots(spline, knots, {});
   ASSERT_TRUE(refined);
   for (const double t : {3.0, 777.25, 150000.75, double(kPoints)})
     EXPECT_LT(samples::distance(samples::point_at(spline, t), samples::point_at(*refined, t)), 1e-14);
+}
+
+TEST(RefineSpans, halves_every_span_and_keeps_the_curve) {
+  for (const auto& [name, spline] : samples::all_splines())
+    for (const Index level : {0u, 1u, 3u}) {
+      const auto refined = refine_spans(spline, level, {});
+      ASSERT_TRUE(refined) << name;
+      ASSERT_TRUE(refined->check()) << name;
+      EXPECT_EQ(refined->point_count(), refined_point_count(spline, level)) << name;
+      EXPECT_LT(samples::deviation(spline, *refined), 1e-12 * extent(spline)) << name;
+    }
+}
+
+TEST(RefineSpans, step_by_step_is_at_once) {
+  for (const auto& [name, spline] : samples::all_splines()) {
+    const auto twice = refine_spans(*refine_spans(spline, 1, {}), 1, {}),
+               at_once = refine_spans(spline, 2, {});
+    EXPECT_EQ(twice->knots, at_once->knots) << name;
+    for (std::size_t k = 0; k < twice->points.size(); ++k)
+      EXPECT_NEAR(twice->points[k], at_once->points[k], 1e-14);
+  }
+}
+
+TEST(RefineSpans, knows_its_size_beforehand_and_stops) {
+  const Spline circle = samples::circle();
+  EXPECT_EQ(refine_spans(circle, 30, {}).error().code, ErrorCode::too_large);
+  Budget small;
+  small.max_bytes = 1000;
+  EXPECT_EQ(refine_spans(circle, 5, small).error().code, ErrorCode::too_large);
+  const std::atomic<bool> gone = true;
+  Budget cancelled;
+  cancelled.cancelled = &gone;
+  EXPECT_EQ(refine_spans(circle, 5, cancelled).error().code, ErrorCode::cancelled);
+  Spline tiny = circle;
+  for (double& t : tiny.knots) t = 1 + t * 0x1p-52;
+  EXPECT_EQ(refine_spans(tiny, 3, {}).error().code, ErrorCode::out_of_range);
 }
 
 }  // namespace
