@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/curves/bezier.h"
 #include "core/curves/precision.h"
 
 namespace subdivd {
@@ -183,74 +184,79 @@ void blossom_weights(std::span<const double> knots, Index degree, Count span,
 
 // --- Many parameters --------------------------------------------------------------------------------------
 
-namespace {
-
-// Reciprocals of the six knot differences that a cubic's basis on a span is divided by, as
-// basis_functions() comes by them.
-constexpr std::size_t kInverses = 6;
-std::array<double, kInverses> inverses_of(std::span<const double> u, Count k) {
-  if (!(u[k] < u[k + 1])) return {};
-  return {1 / (u[k + 1] - u[k]),     1 / (u[k + 1] - u[k - 1]), 1 / (u[k + 2] - u[k]),
-          1 / (u[k + 1] - u[k - 2]), 1 / (u[k + 2] - u[k - 1]), 1 / (u[k + 3] - u[k])};
-}
-
-}  // namespace
-
 SplineEvaluator::SplineEvaluator(const Spline& spline)
     : degree_(spline.degree),
       width_(spline.width),
       dimension_(spline.dimension()),
       rational_(spline.rational),
       knots_(spline.knots),
-      points_(spline.points),
-      begin_(spline.begin()),
-      end_(spline.end()) {
-  const Count spans = spline.point_count() - degree_;
-  cells_per_unit_ = static_cast<double>(spans) / (end_ - begin_);
-  first_spans_.resize(spans + 2);
-  // By the very arithmetic that will look a cell up, so that a knot's cell never lies behind its points'.
-  Count span = degree_;
-  const Count last = find_span(spline, end_);
-  for (Count cell = 0; cell < first_spans_.size(); ++cell) {
-    while (span < last && static_cast<Count>((knots_[span + 1] - begin_) * cells_per_unit_) < cell) ++span;
-    first_spans_[cell] = static_cast<Index>(span);
+      points_(spline.points) {
+  for (Count k = degree_; k < spline.point_count(); ++k) {
+    if (!(knots_[k] < knots_[k + 1])) continue;
+    breaks_.push_back(knots_[k]);
+    spans_.push_back(static_cast<Index>(k));
   }
-  if (degree_ != 3) return;
-  inverse_.resize((spline.point_count() + 1) * kInverses);
-  for (Count k = degree_; k < spline.point_count(); ++k)
-    std::ranges::copy(inverses_of(knots_, k), inverse_.begin() + static_cast<std::ptrdiff_t>(k * kInverses));
+  breaks_.push_back(spline.end());
+  // Finer until a cell holds two breaks at most, but not for ever.
+  constexpr Count kFinest = 8;
+  for (Count fineness = 1; fineness <= kFinest; fineness *= 2) {
+    divide_domain(fineness * spans_.size());
+    if (most_in_cell_ <= 2) break;
+  }
+  if (degree_ == 3 && !rational_) set_cubics(spline);
+}
+
+// By the very arithmetic that will look a cell up, so that a break's cell never lies behind its points'.
+void SplineEvaluator::divide_domain(Count cells) {
+  cells_per_unit_ = static_cast<double>(cells) / (breaks_.back() - breaks_.front());
+  first_in_cell_.assign(cells + 2, 0);
+  most_in_cell_ = 0;
+  Index span = 0;
+  const auto last = static_cast<Index>(spans_.size() - 1);
+  for (Count cell = 0; cell < first_in_cell_.size(); ++cell) {
+    while (span < last && static_cast<Count>((breaks_[span + 1] - breaks_[0]) * cells_per_unit_) < cell)
+      ++span;
+    first_in_cell_[cell] = span;
+    if (cell > 0) most_in_cell_ = std::max(most_in_cell_, span - first_in_cell_[cell - 1]);
+  }
+}
+
+// From Bezier points b to powers: b_0, 3 (b_1 - b_0), 3 (b_0 - 2 b_1 + b_2), b_3 - 3 b_2 + 3 b_1 - b_0.
+void SplineEvaluator::set_cubics(const Spline& spline) {
+  cubics_.reserve(spans_.size() * width_ * 4);
+  for (const BezierPiece& piece : bezier_pieces(spline)) {
+    for (Index k = 0; k < width_; ++k) {
+      const double b0 = piece.points[k], b1 = piece.points[width_ + k];
+      const double b2 = piece.points[2 * width_ + k], b3 = piece.points[3 * width_ + k];
+      const double first = b1 - b0, second = b2 - b1, third = b3 - b2;
+      const double bend = second - first;
+      cubics_.insert(cubics_.end(), {b0, 3 * first, 3 * bend, (third - second) - bend});
+    }
+    inverse_lengths_.push_back(1 / (piece.end - piece.begin));
+  }
 }
 
 Count SplineEvaluator::span_of(double t) const {
-  const auto cell = static_cast<Count>((t - begin_) * cells_per_unit_);
-  Count low = first_spans_[cell], high = first_spans_[cell + 1];
-  // Most cells hold a knot or two.
-  if (high - low < 4) {
-    while (low < high && knots_[low + 1] <= t) ++low;
-    return low;
+  const auto cell = static_cast<Count>((t - breaks_[0]) * cells_per_unit_);
+  const Count low = first_in_cell_[cell], high = first_in_cell_[cell + 1];
+  // Without a jump: whether t lies before a break or behind it is a coin toss.
+  if (most_in_cell_ <= 2) {
+    const Count next = low + static_cast<Count>((low < high) & (breaks_[low + 1] <= t));
+    return next + static_cast<Count>((next < high) & (breaks_[next + 1] <= t));
   }
-  const auto first = knots_.begin() + static_cast<std::ptrdiff_t>(low) + 1;
-  const auto last = knots_.begin() + static_cast<std::ptrdiff_t>(high) + 1;
-  return static_cast<Count>(std::upper_bound(first, last, t) - knots_.begin()) - 1;
+  const auto first = breaks_.begin() + static_cast<std::ptrdiff_t>(low) + 1;
+  const auto last = breaks_.begin() + static_cast<std::ptrdiff_t>(high) + 1;
+  return static_cast<Count>(std::upper_bound(first, last, t) - breaks_.begin()) - 1;
 }
 
 template <Index kWidth>
 void SplineEvaluator::evaluate_cubic(std::span<const double> ts, std::span<double> points) const {
   double* out = points.data();
   for (const double t : ts) {
-    const Count k = span_of(t);
-    const double* u = knots_.data() + k;
-    const double* inverse = inverse_.data() + k * kInverses;
-    const double l1 = t - u[0], l2 = t - *(u - 1), l3 = t - *(u - 2);
-    const double r1 = u[1] - t, r2 = u[2] - t, r3 = u[3] - t;
-    const double a = r1 * inverse[0] * inverse[1], b = l1 * inverse[0] * inverse[2];
-    const double c = r1 * a * inverse[3], d = (l2 * a + r2 * b) * inverse[4], e = l1 * b * inverse[5];
-    const double basis[4] = {r1 * c, l3 * c + r2 * d, l2 * d + r3 * e, l1 * e};
-    const double* control = points_.data() + (k - 3) * kWidth;
-    for (Index x = 0; x < kWidth; ++x)
-      out[x] = (basis[0] * control[x] + basis[1] * control[kWidth + x]) +
-               (basis[2] * control[2 * kWidth + x] + basis[3] * control[3 * kWidth + x]);
-    out += kWidth;
+    const Count span = span_of(t);
+    const double u = (t - breaks_[span]) * inverse_lengths_[span];
+    const double* c = cubics_.data() + span * (4 * kWidth);
+    for (Index k = 0; k < kWidth; ++k, c += 4) *out++ = c[0] + u * (c[1] + u * (c[2] + u * c[3]));
   }
 }
 
@@ -260,7 +266,7 @@ void SplineEvaluator::evaluate_any(std::span<const double> ts, std::span<double>
   std::vector<double> stored(width_);
   double* out = points.data();
   for (const double t : ts) {
-    const Count span = span_of(t);
+    const Count span = spans_[span_of(t)];
     basis_functions(knots_, degree_, span, t, values);
     std::ranges::fill(stored, 0.0);
     const double* control = points_.data() + (span - degree_) * width_;
@@ -273,8 +279,8 @@ void SplineEvaluator::evaluate_any(std::span<const double> ts, std::span<double>
 
 void SplineEvaluator::evaluate(std::span<const double> ts, std::span<double> points) const {
   assert(points.size() == ts.size() * dimension_);
-  if (degree_ == 3 && !rational_ && width_ == 3) return evaluate_cubic<3>(ts, points);
-  if (degree_ == 3 && !rational_ && width_ == 2) return evaluate_cubic<2>(ts, points);
+  if (!cubics_.empty() && width_ == 3) return evaluate_cubic<3>(ts, points);
+  if (!cubics_.empty() && width_ == 2) return evaluate_cubic<2>(ts, points);
   evaluate_any(ts, points);
 }
 

@@ -39,17 +39,21 @@ void blossom_weights(std::span<const double> knots, Index degree, Count span,
                      std::span<const double> arguments, std::span<double> weights);
 
 // Points at many parameters: what does not depend on t is worked out once, and finding the span takes the
-// same time however many there are. Parameters outside the domain are an error of the caller's: see
-// check_parameter.
+// same time however many there are, but where knots crowd together in one part of the domain. Cubics without
+// weights are kept as one polynomial per span.
 class SplineEvaluator {
  public:
   explicit SplineEvaluator(const Spline& spline);
 
   Index dimension() const { return dimension_; }
-  // ts.size() points into `points`, dimension() coordinates each; each t in [begin(), end()].
+  // ts.size() points into `points`, dimension() coordinates each; each t in [begin(), end()] (assumed: see
+  // check_parameter).
   void evaluate(std::span<const double> ts, std::span<double> points) const;
 
  private:
+  void divide_domain(Count cells);
+  void set_cubics(const Spline& spline);
+  // The number, among the spans that are not empty, of the one that holds t.
   Count span_of(double t) const;
   template <Index kWidth>
   void evaluate_cubic(std::span<const double> ts, std::span<double> points) const;
@@ -58,9 +62,13 @@ class SplineEvaluator {
   Index degree_, width_, dimension_;
   bool rational_;
   std::vector<double> knots_, points_;
-  double begin_, end_, cells_per_unit_;
-  std::vector<Index> first_spans_;  // of every cell of the domain: the span of the cell's begin
-  std::vector<double> inverse_;     // of cubics, per span: the six reciprocals of knot differences
+  std::vector<double> breaks_;        // where the spans that are not empty begin, and the last one ends
+  std::vector<Index> spans_;          // and which knot begins them
+  std::vector<Index> first_in_cell_;  // of every cell of the domain: the span that its begin lies in
+  Index most_in_cell_ = 0;            // breaks within one cell
+  double cells_per_unit_ = 0;
+  std::vector<double> cubics_;  // per span and coordinate four coefficients, by (t - begin) / length
+  std::vector<double> inverse_lengths_;
 };
 
 }  // namespace subdivd
