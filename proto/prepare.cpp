@@ -126,7 +126,7 @@ Error blame_input(const RefineRequest& request, Error error, const char* of, std
     error.where.clear();
     return error;
   }
-  if (mesh && request.single_mesh_at_top) return error;
+  if (mesh ? request.single_mesh_at_top : request.single_curve_at_top) return error;
   Path where = {of, std::uint64_t{i}};
   where.insert(where.end(), error.where.begin(), error.where.end());
   error.where = std::move(where);

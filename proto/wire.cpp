@@ -33,9 +33,12 @@ RefineOptions mesh_options(const RefineRequest& request) {
           .provenance = false};
 }
 
-CurveOptions curve_options(const RefineRequest& request) {
+CurveOptions curve_options(const RefineRequest& request, const ControlCurves& curves) {
   const Options& options = request.options;
-  return {.level = options.level, .limit = options.limit, .tangents = options.normals};
+  // A glTF line has no basis: it can only be the curve itself, where refining does not lead there.
+  const bool limit =
+      options.limit || (answer_format(request) != Format::json && !is_subdivided(curves.basis));
+  return {.level = options.level, .limit = limit, .tangents = options.normals};
 }
 
 Chunk Chunk::own(std::string text) {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/index.h"
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"
@@ -76,7 +76,7 @@ struct RefineRequest {
   std::vector<std::vector<Index>> face_origins;
   std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
   // JSON only
-  bool single_mesh_at_top = false;
+  bool single_mesh_at_top = false, single_curve_at_top = false;
   std::vector<JsonMeshForm> mesh_forms;
   std::vector<ArrayForm> curve_forms;
   // glTF only: meshes and curves of this request belong to source in the order it knows
@@ -103,7 +103,7 @@ Precision answer_precision(const RefineRequest& request);
 
 // What the request asks of the core, for every mesh and every curve of it alike.
 RefineOptions mesh_options(const RefineRequest& request);
-CurveOptions curve_options(const RefineRequest& request);
+CurveOptions curve_options(const RefineRequest& request, const ControlCurves& curves);
 
 // A piece of an answer's body: bytes and whatever keeps them alive.
 struct Chunk {

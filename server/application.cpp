@@ -45,9 +45,19 @@ Application::Application(const Config& config, Quota& memory)
 
 // THE list of what there is.
 std::vector<Route> Application::routes() {
+  const auto curves = [this](proto::CurveTaskKind kind) {
+    return [this, kind](Request& request) { return geometry_.curves(request, kind); };
+  };
   return {
       {"POST", "/v1/refine", [this](Request& request) { return geometry_.refine(request); }},
       {"POST", "/v1/verify", [this](Request& request) { return geometry_.verify(request); }},
+      {"POST", "/v1/evaluate", curves(proto::CurveTaskKind::evaluate)},
+      {"POST", "/v1/curves/refine", curves(proto::CurveTaskKind::refine)},
+      {"POST", "/v1/curves/evaluate", curves(proto::CurveTaskKind::evaluate)},
+      {"POST", "/v1/curves/insert-knot", curves(proto::CurveTaskKind::insert_knot)},
+      {"POST", "/v1/curves/remove-knot", curves(proto::CurveTaskKind::remove_knot)},
+      {"POST", "/v1/curves/convert", curves(proto::CurveTaskKind::convert)},
+      {"POST", "/v1/curves/measure", curves(proto::CurveTaskKind::measure)},
       {"GET", "/livez", [](Request&) { return text_response("text/plain; charset=utf-8", "ok\n"); }},
       {"GET", "/readyz", [this](Request&) { return readiness(); }},
       {"GET", "/openapi.json",

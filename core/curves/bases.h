@@ -19,11 +19,6 @@
 
 namespace subdivd {
 
-// How far apart in the parameter Catmull-Rom's neighbours are taken to be when tangents are made: 1, the root
-// of their distance, their distance. Centripetal curves have neither cusps nor loops within a segment.
-//   [BarryGoldman88; YukselSchaeferKeyser11]
-enum class Spacing { uniform, centripetal, chordal };
-
 // `points`: width scalars each, as many as the basis and the wrap need (assumed).
 //
 // Uniform B-splines: the domain is that of core/curves/control_curve.h. Pinned ones of odd degree have the

@@ -2,32 +2,69 @@
 
 #include <cmath>
 
+#include "core/curves/corner_cutting.h"
+#include "core/curves/four_point.h"
+#include "core/curves/lane_riesenfeld.h"
+#include "core/curves/piecewise.h"
+
 namespace subdivd {
 namespace {
 
-struct WrapRule {
-  std::string_view name;
-  Index min_points;
-};
-
-WrapRule rule_of(CurveWrap wrap) {
+std::string name_of(CurveWrap wrap) {
   switch (wrap) {
     case CurveWrap::nonperiodic:
-      return {"nonperiodic", 4};
+      return "nonperiodic";
     case CurveWrap::periodic:
-      return {"periodic", 3};
+      return "periodic";
     case CurveWrap::pinned:
       break;
   }
-  return {"pinned", 2};
+  return "pinned";
 }
 
-Error too_few(CurveWrap wrap, Count points, Path where) {
-  const WrapRule rule = rule_of(wrap);
+// "cubic curve", "curve of degree 5", …
+std::string kind_of(const ControlCurves& curves) {
+  switch (curves.basis) {
+    case CurveBasis::four_point:
+      return "four-point curve";
+    case CurveBasis::corner_cutting:
+      return "corner-cutting curve";
+    default:
+      break;
+  }
+  return curves.degree == 3 ? "cubic curve" : "curve of degree " + std::to_string(curves.degree);
+}
+
+Error too_few(const ControlCurves& curves, Count points, Path where) {
   return Error{ErrorCode::too_few_points,
-               "a " + std::string(rule.name) + " cubic curve needs at least " +
-                   std::to_string(rule.min_points) + " points; this one has " + std::to_string(points),
+               "a " + name_of(curves.wrap) + " " + kind_of(curves) + " needs at least " +
+                   std::to_string(least_points(curves)) + " points; this one has " + std::to_string(points),
                std::move(where)};
+}
+
+Error bad_parameter(const char* name, double value, const char* range) {
+  return Error{std::isfinite(value) ? ErrorCode::out_of_range : ErrorCode::not_finite,
+               "the " + std::string(name) + " is " + std::to_string(value) + "; it must be " + range,
+               {std::string(name)}};
+}
+
+Result<void> check_basis(const ControlCurves& curves) {
+  switch (curves.basis) {
+    case CurveBasis::bspline:
+      if (curves.degree >= 1 && curves.degree <= kMaxCurveDegree) return {};
+      return Error{ErrorCode::out_of_range,
+                   "the degree is " + std::to_string(curves.degree) + "; it must be 1 to " +
+                       std::to_string(kMaxCurveDegree),
+                   {"degree"}};
+    case CurveBasis::four_point:
+      if (is_four_point_tension(curves.tension)) return {};
+      return bad_parameter("tension", curves.tension, "at least 0 and below 0.192729");
+    case CurveBasis::corner_cutting:
+      if (is_cutting_ratio(curves.ratio)) return {};
+      return bad_parameter("ratio", curves.ratio, "above 0 and below 0.5");
+    default:
+      return {};
+  }
 }
 
 Result<void> check_points(const ControlCurves& curves) {
@@ -58,17 +95,44 @@ Result<void> check_points(const ControlCurves& curves) {
 
 }  // namespace
 
+CurveSplit split_of(const ControlCurves& curves) {
+  switch (curves.basis) {
+    case CurveBasis::four_point:
+      return four_point_split();
+    case CurveBasis::corner_cutting:
+      return corner_cutting_split();
+    default:
+      break;
+  }
+  return lane_riesenfeld_split(curves.degree);
+}
+
+Index least_points(const ControlCurves& curves) {
+  const CurveSplit split = split_of(curves);
+  switch (curves.wrap) {
+    case CurveWrap::nonperiodic:
+      return split.lost + 1;
+    case CurveWrap::periodic:
+      return 3;
+    case CurveWrap::pinned:
+      break;
+  }
+  return split.dual ? 3 : 2;
+}
+
 Result<void> ControlCurves::check() const {
+  if (auto checked = check_basis(*this); !checked) return checked;
   if (auto checked = check_points(*this); !checked) return checked;
+  if (!is_subdivided(basis)) return check_piecewise(*this);
   const Count given = point_count();
-  const Index needed = rule_of(wrap).min_points;
+  const Index needed = least_points(*this);
   if (vertex_counts.empty()) {
-    if (given < needed) return too_few(wrap, given, {"points"});
+    if (given < needed) return too_few(*this, given, {"points"});
     return {};
   }
   Count taken = 0;  // cannot wrap: fewer than 2^32 points each, and the list fits in memory
   for (Count c = 0; c < vertex_counts.size(); ++c) {
-    if (vertex_counts[c] < needed) return too_few(wrap, vertex_counts[c], {"curveVertexCounts", c});
+    if (vertex_counts[c] < needed) return too_few(*this, vertex_counts[c], {"curveVertexCounts", c});
     taken += vertex_counts[c];
   }
   if (taken != given)

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/curves/cubic.h"
 #include "core/curves/precision.h"
+#include "core/curves/subdivision.h"
 
 namespace subdivd {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Our refined levels against the same levels by Far.
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_curves.h"

@@ -10,9 +10,9 @@ namespace {
 // Compares one quantity of all curves. A nonperiodic curve is the part of the pinned one that starts at its
 // point 2^level - 1; `trimmed` leaves the first and last point of every curve out.
 template <class Real>
-Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours,
-                         const std::vector<Real>& values, const FarCurves& far,
-                         const std::vector<double>& far_values, const PointScale& scale, bool trimmed) {
+Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, const Buffer<Real>& values,
+                         const FarCurves& far, const std::vector<double>& far_values, const PointScale& scale,
+                         bool trimmed) {
   const Count n = segments(ours.level);
   const Count skipped = ours.wrap == CurveWrap::nonperiodic ? n - 1 : 0;
   Tally tally(quantity, scale.diagonal, value_tolerance<Real>() * scale.remoteness, 1);

@@ -1,6 +1,6 @@
 #include "core/oracle/far_curves.h"
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/oracle/far.h"
 #include "core/refine/split.h"
 

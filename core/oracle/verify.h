@@ -7,7 +7,7 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"

@@ -23,6 +23,13 @@ std::string remark(CurveWrap wrap) {
 
 template <class Real>
 Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& options, const Budget& budget) {
+  if (curves.basis != CurveBasis::bspline || curves.degree != 3)
+    return Error{
+        ErrorCode::unsupported,
+        "OpenSubdiv knows uniform cubic B-splines only; verification needs basis \"bspline\" of degree 3",
+        {"basis"},
+        0,
+        0};
   if (const auto sizes = predict_bytes<Real>(curves, options); !sizes) return sizes.error();
   if (const Count bytes = far_curve_bytes(curves, options.level); bytes > budget.max_bytes)
     return Error{ErrorCode::too_large,

@@ -91,7 +91,9 @@ Index add_mesh(Json& document, const std::string& name, Json::Array primitives) 
 void add_curves(const RefineRequest& request, Index index, Source& source,
                 std::vector<std::string>& warnings) {
   const ControlCurves& curves = request.curves[index];
-  const Count mode = curves.wrap == CurveWrap::periodic ? kLineLoop : kLineStrip;
+  // Curves by pieces come back open, ending where they begin.
+  const bool loop = curves.wrap == CurveWrap::periodic && is_subdivided(curves.basis);
+  const Count mode = loop ? kLineLoop : kLineStrip;
   const Count count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
   Json::Array primitives(count, make_primitive(mode));
   const Index mesh = add_mesh(source.document, curves.name, std::move(primitives));

@@ -129,7 +129,10 @@ Result<ReadLines> read_lines(const Asset& asset, Index mesh, Index primitive, co
   }
   const auto add = [&](const std::vector<std::vector<Index>>& chains, CurveWrap wrap) {
     if (chains.empty()) return;
-    ControlCurves curves{asset.model.meshes[mesh].name, tuples.width, {}, {}, wrap};
+    ControlCurves curves;
+    curves.name = asset.model.meshes[mesh].name;
+    curves.width = tuples.width;
+    curves.wrap = wrap;
     for (const auto& chain : chains) append_curve(curves, chain, tuples);
     result.curves.push_back(std::move(curves));
   };

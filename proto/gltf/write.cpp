@@ -87,12 +87,17 @@ Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all
   Count points = 0, segments = 0;
   for (const Index index : slot.curves) {
     const ControlCurves& curves = all[index];
+    // Curves by pieces or on knots are counted together, with the first of them.
+    if (!is_subdivided(curves.basis)) {
+      if (slot.ordinal == 0) points += total_point_count(curves, level);
+      continue;
+    }
     const Count count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
     for (Count ordinal = 0; ordinal < count; ++ordinal) {
       if (slot.mode != kLines && ordinal != slot.ordinal) continue;
       const Count controls =
           curves.vertex_counts.empty() ? curves.point_count() : curves.vertex_counts[ordinal];
-      const Count refined = refined_point_count(curves.wrap, controls, level);
+      const Count refined = refined_point_count(curves, controls, level);
       points += refined;
       segments += curves.wrap == CurveWrap::periodic ? refined : refined - 1;
     }

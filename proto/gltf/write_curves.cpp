@@ -21,7 +21,7 @@ std::vector<Run<Real>> runs_of(const CurvesSlot& slot, const std::vector<Refined
   std::vector<Run<Real>> runs;
   for (const Index index : slot.curves) {
     const RefinedCurves<Real>& curves = all[index];
-    const std::vector<Real>& points = curves.limit_points.empty() ? curves.points : curves.limit_points;
+    const Buffer<Real>& points = curves.limit_points.empty() ? curves.points : curves.limit_points;
     Count begin = 0;
     for (Index ordinal = 0; ordinal < curves.vertex_counts.size(); ++ordinal) {
       const Index count = curves.vertex_counts[ordinal];

@@ -138,6 +138,21 @@ bool read_indices(Cursor& cursor, Value value, std::vector<Index>& out) {
   return true;
 }
 
+bool read_reals(Cursor& cursor, Value value, std::vector<double>& out) {
+  array elements;
+  if (!open_array(cursor, value, "an array of numbers", elements)) return false;
+  std::size_t i = 0;
+  for (auto element : elements) {
+    Value one;
+    double number = 0;
+    if (element.get(one)) return cursor.fail_syntax();
+    if (!get_number(one, number)) return cursor.fail_number(one, "a number", {i});
+    out.push_back(number);
+    ++i;
+  }
+  return true;
+}
+
 bool read_lists(Cursor& cursor, Value value, std::string_view noun, Lists& out) {
   array elements;
   if (!open_array(cursor, value, "an array of whole numbers, or of arrays of them", elements)) return false;

@@ -33,6 +33,8 @@ struct Lists {
 };
 bool read_lists(Cursor& cursor, Value value, std::string_view noun, Lists& out);
 
+bool read_reals(Cursor& cursor, Value value, std::vector<double>& out);
+
 // Numbers or "infinite". Single precision, as the rule is (core/mesh/control_mesh.h).
 bool read_sharpnesses(Cursor& cursor, Value value, std::vector<float>& out);
 

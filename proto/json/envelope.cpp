@@ -54,10 +54,7 @@ Json mesh_levels(const ControlMesh& mesh, Index level, Count refined_points) {
 Json curve_levels(const ControlCurves& curves, Index level) {
   Json levels = Json::array();
   for (Index l = 0; l <= level; ++l) {
-    Count points = 0;
-    if (curves.vertex_counts.empty()) points = refined_point_count(curves.wrap, curves.point_count(), l);
-    for (const Index count : curves.vertex_counts) points += refined_point_count(curves.wrap, count, l);
-    levels.push_back({{"level", l}, {"points", points}});
+    levels.push_back({{"level", l}, {"points", total_point_count(curves, l)}});
   }
   return levels;
 }

@@ -22,6 +22,8 @@ Count predicted_envelope_bytes(const RefineRequest& request);
 Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes);
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer);
+// With other members behind the geometry than the envelope: the text of a JSON object.
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members);
 
 // {"options": {…}, "statistics": {…}, "warnings": […], "verification": {…}} as one JSON object: the members
 // that every answer carries, whatever its format. glTF puts it into asset.extras.subdivd. Members that do not

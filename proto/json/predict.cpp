@@ -1,6 +1,7 @@
 #include <string>
 
-#include "core/curves/cubic.h"
+#include "core/curves/spline.h"
+#include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
 #include "proto/json/json.h"
 
@@ -49,14 +50,20 @@ Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, 
   return bytes;
 }
 
+// Orders, knots and weights, which are doubles always; refining adds as many knots as points.
+Count on_knots_text(const ControlCurves& curves, Count points) {
+  if (curves.basis != CurveBasis::nurbs) return 0;
+  const Count knots = points + (Count{kMaxDegree} + 1) * curves.curve_count();
+  return indices_text(curves.curve_count(), kMaxDegree + 1) +
+         (knots + (curves.weights.empty() ? 0 : points)) * kDoubleText;
+}
+
 Count curves_text(const ControlCurves& curves, Index level, Count number, bool tangents) {
-  Count points = 0;
-  if (curves.vertex_counts.empty()) points = refined_point_count(curves.wrap, curves.point_count(), level);
-  for (const Index count : curves.vertex_counts) points += refined_point_count(curves.wrap, count, level);
+  const Count points = total_point_count(curves, level);
   const Count arrays = tangents ? 2 : 1;
   const Count curve_count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
   return kMemberText + name_text(curves.name) + arrays * tuples_text(points, curves.width, number) +
-         indices_text(curve_count, points);
+         indices_text(curve_count, points) + on_knots_text(curves, points);
 }
 
 // One level of a verification: positions, limits, normals, two quantities per primvar, each a Deviation.

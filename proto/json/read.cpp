@@ -3,6 +3,7 @@
 
 #include "proto/json/cursor.h"
 #include "proto/json/diagnose.h"
+#include "proto/json/document.h"
 #include "proto/json/json.h"
 #include "proto/json/read_mesh.h"
 #include "proto/options.h"
@@ -14,6 +15,29 @@ using simdjson::ondemand::json_type;
 
 // An empty mesh takes 40 bytes of text and over a thousand here, in the engine and in the answer.
 constexpr std::size_t kMostObjects = 65536;
+
+template <class ReadOne>
+bool each(Cursor& cursor, Value value, std::string_view right, ReadOne read_one) {
+  simdjson::ondemand::array array;
+  if (value.get_array().get(array)) return cursor.fail_type(value, right);
+  std::uint64_t i = 0;
+  for (auto element : array) {
+    Value one;
+    if (element.get(one)) return cursor.fail_syntax();
+    if (i == kMostObjects)
+      return cursor.fail(ErrorCode::too_large,
+                         std::string("there are more than ") + std::to_string(kMostObjects) + " of them");
+    const Cursor::Step step(cursor, i);
+    if (!read_one(one)) return false;
+    ++i;
+  }
+  return true;
+}
+
+void warn_once(std::vector<std::string>& warnings, bool& warned, const char* text) {
+  if (!warned) warnings.emplace_back(text);
+  warned = true;
+}
 
 class DocumentReader {
  public:
@@ -45,7 +69,7 @@ class DocumentReader {
   }
 
   bool meshes(Value value) {
-    return each(value, "an array of meshes", [&](Value one) {
+    return each(cursor_, value, "an array of meshes", [&](Value one) {
       MeshRead mesh;
       if (!read_mesh(cursor_, one, mesh)) return false;
       add(std::move(mesh));
@@ -53,18 +77,9 @@ class DocumentReader {
     });
   }
 
-  bool curves(Value value) {
-    return each(value, "an array of curves", [&](Value one) {
-      CurvesRead curves;
-      if (!read_curves(cursor_, one, curves)) return false;
-      if (curves.had_tangents) warn_once(tangents_warned_, "tangents of the body are not used");
-      out_.curves.push_back(std::move(curves.curves));
-      out_.curve_forms.push_back(curves.form);
-      return true;
-    });
-  }
+  bool curves(Value value) { return read_curve_list(cursor_, value, out_); }
 
-  bool options(Value value);
+  bool options(Value value) { return read_options(cursor_, value, out_.options); }
 
   // Members of an answer: it is a valid request, so they may stand here. They are looked at, not used.
   bool ignored(Value value) { return cursor_.skip(value, limits_.max_json_depth); }
@@ -75,42 +90,19 @@ class DocumentReader {
   }
 
  private:
-  template <class ReadOne>
-  bool each(Value value, std::string_view right, ReadOne read_one) {
-    simdjson::ondemand::array array;
-    if (value.get_array().get(array)) return cursor_.fail_type(value, right);
-    std::uint64_t i = 0;
-    for (auto element : array) {
-      Value one;
-      if (element.get(one)) return cursor_.fail_syntax();
-      if (i == kMostObjects)
-        return cursor_.fail(ErrorCode::too_large,
-                            std::string("there are more than ") + std::to_string(kMostObjects) + " of them");
-      const Cursor::Step step(cursor_, i);
-      if (!read_one(one)) return false;
-      ++i;
-    }
-    return true;
-  }
-
   void add(MeshRead mesh) {
     if (mesh.had_normals)
-      warn_once(normals_warned_,
+      warn_once(out_.warnings, normals_warned_,
                 "normals of the body are not used; ask for new ones with the option normals");
     out_.meshes.push_back(std::move(mesh.mesh));
     out_.mesh_forms.push_back(std::move(mesh.form));
-  }
-
-  void warn_once(bool& warned, const char* text) {
-    if (!warned) out_.warnings.emplace_back(text);
-    warned = true;
   }
 
   Cursor& cursor_;
   const Limits& limits_;
   RefineRequest& out_;
   MeshReader top_mesh_;
-  bool normals_warned_ = false, tangents_warned_ = false;
+  bool normals_warned_ = false;
 };
 
 const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& DocumentReader::members() {
@@ -142,48 +134,64 @@ const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& Docu
   return table;
 }
 
-bool DocumentReader::options(Value value) {
+}  // namespace
+
+bool read_curve_list(Cursor& cursor, Value value, RefineRequest& out) {
+  bool warned = false;
+  return each(cursor, value, "an array of curves", [&](Value one) {
+    CurvesRead curves;
+    if (!read_curves(cursor, one, curves)) return false;
+    if (curves.had_tangents) warn_once(out.warnings, warned, "tangents of the body are not used");
+    out.curves.push_back(std::move(curves.curves));
+    out.curve_forms.push_back(curves.form);
+    return true;
+  });
+}
+
+bool read_options(Cursor& cursor, Value value, Options& out) {
   simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor_.fail_type(value, "an object of options");
+  if (value.get_object().get(object)) return cursor.fail_type(value, "an object of options");
   std::bitset<64> seen;
   for (auto field : object) {
     std::string_view key;
     Value one;
     json_type type{};
     if (field.unescaped_key().get(key) || field.value().get(one) || one.type().get(type))
-      return cursor_.fail_syntax();
+      return cursor.fail_syntax();
     const std::string name(key);
     if (const OptionSpec* spec = find_option(name)) {
       const auto number = static_cast<std::size_t>(spec - option_table().data());
-      if (seen[number]) return cursor_.fail_twice(name);
+      if (seen[number]) return cursor.fail_twice(name);
       seen.set(number);
     }
-    const Cursor::Step step(cursor_, std::string_view(name));
+    const Cursor::Step step(cursor, std::string_view(name));
     OptionValue given;
     std::string_view text;
     bool truth = false;
     double real = 0;
     if (type == json_type::boolean) {
-      if (one.get_bool().get(truth)) return cursor_.fail_syntax();
+      if (one.get_bool().get(truth)) return cursor.fail_syntax();
       given.boolean = truth;
     } else if (type == json_type::number) {
-      if (!get_number(one, real)) return cursor_.fail_number(one, "a number within range");
+      if (!get_number(one, real)) return cursor.fail_number(one, "a number within range");
       given.number = real;
     } else if (type == json_type::string) {
-      if (one.get_string().get(text)) return cursor_.fail_syntax();
+      if (one.get_string().get(text)) return cursor.fail_syntax();
       given.text = text;
     }
-    if (Result<void> done = set_option(out_.options, name, given, cursor_.path()); !done) {
+    if (Result<void> done = set_option(out, name, given, cursor.path()); !done) {
       const Error& error = done.error();
-      return cursor_.fail_as(error);
+      return cursor.fail_as(error);
     }
   }
   return true;
 }
 
+namespace {
+
 // Opens the document, lets the reader walk it and makes sure that nothing follows.
 bool walk(Cursor& cursor, simdjson::ondemand::parser& parser, const simdjson::padded_string& text,
-          const Limits& limits, RefineRequest& request) {
+          const std::function<bool(Cursor&, simdjson::ondemand::object)>& read) {
   simdjson::ondemand::document document;
   if (parser.iterate(text).get(document)) return cursor.fail_syntax();
   json_type type{};
@@ -191,7 +199,7 @@ bool walk(Cursor& cursor, simdjson::ondemand::parser& parser, const simdjson::pa
   if (type != json_type::object) return cursor.fail(ErrorCode::wrong_type, "the body must be a JSON object");
   simdjson::ondemand::object object;
   if (document.get_object().get(object)) return cursor.fail_syntax();
-  if (!DocumentReader(cursor, limits, request).read(object)) return false;
+  if (!read(cursor, object)) return false;
   const char* next = nullptr;
   if (document.current_location().get(next) != simdjson::OUT_OF_BOUNDS)
     return cursor.fail(ErrorCode::malformed, "something follows the JSON object; the body must end with it");
@@ -200,7 +208,8 @@ bool walk(Cursor& cursor, simdjson::ondemand::parser& parser, const simdjson::pa
 
 }  // namespace
 
-Result<RefineRequest> read(std::string_view body, const Limits& limits) {
+Result<void> read_document(std::string_view body,
+                           const std::function<bool(Cursor&, simdjson::ondemand::object)>& read) {
   // A byte order mark is no JSON, but some editors write it.
   if (body.starts_with("\xEF\xBB\xBF")) body.remove_prefix(3);
   const simdjson::padded_string text(body);  // simdjson reads up to 64 bytes past the end
@@ -208,11 +217,19 @@ Result<RefineRequest> read(std::string_view body, const Limits& limits) {
     return Error{ErrorCode::too_large, "there is no memory for this body", {}, body.size(), 0};
   simdjson::ondemand::parser parser;
   Cursor cursor;
-  RefineRequest request;
-  request.input = Format::json;
-  if (walk(cursor, parser, text, limits, request)) return request;
+  if (walk(cursor, parser, text, read)) return {};
   if (cursor.malformed()) return diagnose(body);
   return *cursor.error();
+}
+
+Result<RefineRequest> read(std::string_view body, const Limits& limits) {
+  RefineRequest request;
+  request.input = Format::json;
+  const auto done = read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {
+    return DocumentReader(cursor, limits, request).read(object);
+  });
+  if (!done) return done.error();
+  return request;
 }
 
 bool has_member(std::string_view body, std::string_view name) {

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <bitset>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/curves/control_curve.h"
 #include "core/mesh/control_mesh.h"
@@ -59,6 +61,53 @@ class MeshReader {
   MeshRead result_;
   Lists faces_, creases_;
   bool has_points_ = false, has_faces_ = false, has_counts_ = false, has_lengths_ = false;
+};
+
+// The same for a set of curves.
+class CurvesReader {
+ public:
+  CurvesReader(Cursor& cursor, CurvesRead& out) : cursor_(cursor), out_(out) {}
+
+  static constexpr std::size_t kMembers = 15;
+  static const std::array<Cursor::Member<CurvesReader>, kMembers>& members();
+
+  // To be called standing in the curves, after the last member.
+  bool finish();
+
+  bool name(Value value);
+  bool type(Value value);
+  bool basis(Value value);
+  bool degree(Value value);
+  bool wrap(Value value);
+  bool tension(Value value);
+  bool ratio(Value value);
+  bool spacing(Value value);
+  bool points(Value value);
+  bool curve_vertex_counts(Value value);
+  bool order(Value value);
+  bool knots(Value value);
+  bool ranges(Value value);
+  bool point_weights(Value value);
+  bool tangents(Value value);
+
+ private:
+  // Those that belong to some kinds of curves only.
+  enum class Member { basis, degree, wrap, tension, ratio, spacing, order, knots, ranges, point_weights };
+  bool given(Member member) {
+    given_.set(static_cast<std::size_t>(member));
+    return true;
+  }
+  bool is_given(Member member) const { return given_[static_cast<std::size_t>(member)]; }
+  bool settle_type();
+  bool read_word(Value value, std::span<const std::string_view> words, std::optional<std::size_t>& out);
+  bool read_number(Value value, double& out);
+  bool read_numbers(Value value, std::vector<double>& out);
+
+  Cursor& cursor_;
+  CurvesRead& out_;
+  bool has_points_ = false;
+  std::optional<std::size_t> type_;
+  std::bitset<10> given_;
 };
 
 bool read_mesh(Cursor& cursor, Value value, MeshRead& out);

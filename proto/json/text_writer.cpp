@@ -36,6 +36,11 @@ void TextWriter::raw(std::string_view text) {
   used_ += text.size();
 }
 
+void TextWriter::number(double value) {
+  char* const begin = room(kLongestNumber);
+  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+}
+
 void TextWriter::separate() {
   const char before = used_ > 0 ? buffer_[used_ - 1] : last_;
   if (before != '{' && before != '[' && before != 0) raw(",");

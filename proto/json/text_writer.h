@@ -27,6 +27,8 @@ class TextWriter {
   void key(std::string_view name);  // separate(), then "name":
   void string(std::string_view text) { raw(quoted_json(text)); }
 
+  void number(double value);  // finite
+
   void open(char bracket) { raw(std::string_view(&bracket, 1)); }
   void close(char bracket) { raw(std::string_view(&bracket, 1)); }
 

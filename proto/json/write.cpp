@@ -17,14 +17,21 @@ class AnswerWriter {
   Result<Payload> write(std::string_view envelope) {
     text_.open('{');
     write_meshes();
-    if (!answer_.curves.empty()) {
+    if (request_.single_curve_at_top && answer_.curves.size() == 1) {
+      write_curves(0);
+    } else if (!answer_.curves.empty()) {
       text_.key("curves");
       text_.open('[');
-      for (std::size_t i = 0; i < answer_.curves.size() && !error_; ++i) write_curves(i);
+      for (std::size_t i = 0; i < answer_.curves.size() && !error_; ++i) {
+        text_.separate();
+        text_.open('{');
+        write_curves(i);
+        text_.close('}');
+      }
       text_.close(']');
     }
     if (error_) return *error_;
-    text_.separate();
+    if (envelope != "{}") text_.separate();
     text_.raw(envelope.substr(1));  // the rest of an object, closing brace included
     Payload payload;
     payload.content_type = "application/json";
@@ -90,18 +97,53 @@ class AnswerWriter {
     const bool nested =
         curves.width != 3 || i >= request_.curve_forms.size() || request_.curve_forms[i] == ArrayForm::nested;
     const ArrayForm form = nested ? ArrayForm::nested : ArrayForm::flat;
-    text_.separate();
-    text_.open('{');
     word("name", curves.name, !curves.name.empty());
-    word("type", "cubic");
-    word("basis", "bspline");
-    word("wrap", word_of(curves.wrap));
+    write_kind(curves);
     array(chosen(curves.points, curves.limit_points), "points", curves.width, form, i, "curves");
     text_.key("curveVertexCounts");
     text_.indices(curves.vertex_counts, 1, ArrayForm::flat);
+    if (curves.basis == CurveBasis::nurbs) {
+      text_.key("order");
+      text_.indices(curves.orders, 1, ArrayForm::flat);
+      text_.key("knots");
+      (void)text_.tuples(std::span<const double>(curves.knots), 1, ArrayForm::flat);
+      if (!curves.weights.empty()) {
+        text_.key("pointWeights");
+        (void)text_.tuples(std::span<const double>(curves.weights), 1, ArrayForm::flat);
+      }
+    }
     if (!curves.tangents.empty())
       array(std::exchange(curves.tangents, {}), "tangents", curves.width, form, i, "curves");
-    text_.close('}');
+  }
+
+  // What makes the points a curve, in words that a request takes.
+  void write_kind(const RefinedCurves<Real>& curves) {
+    switch (curves.basis) {
+      case CurveBasis::nurbs:
+        return word("type", "nurbs");
+      case CurveBasis::bspline:
+        if (curves.degree == 3 || curves.degree == 1) word("type", curves.degree == 1 ? "linear" : "cubic");
+        break;
+      case CurveBasis::bezier:
+      case CurveBasis::catmull_rom:
+      case CurveBasis::hermite:
+        word("type", "cubic");
+        break;
+      case CurveBasis::four_point:
+      case CurveBasis::corner_cutting:
+        break;
+    }
+    word("basis", word_of(curves.basis));
+    word("wrap", word_of(curves.wrap));
+    if (curves.basis == CurveBasis::bspline && curves.degree != 3 && curves.degree != 1)
+      number("degree", curves.degree);
+    if (curves.basis == CurveBasis::four_point) number("tension", curves.tension);
+    if (curves.basis == CurveBasis::corner_cutting) number("ratio", curves.ratio);
+  }
+
+  void number(std::string_view name, double value) {
+    text_.key(name);
+    text_.number(value);
   }
 
   // The option limit puts the limits in the place of the refined values. Takes them out of the answer, so
@@ -134,7 +176,7 @@ class AnswerWriter {
                    0,
                    0};
     const bool top = request_.single_mesh_at_top && std::string_view(of) == "meshes";
-    if (!top) error_->where = {of, std::uint64_t{number}};
+    if (!top && !request_.single_curve_at_top) error_->where = {of, std::uint64_t{number}};
   }
 
   const RefineRequest& request_;
@@ -147,6 +189,10 @@ class AnswerWriter {
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer) {
   const std::string members = envelope(request, answer);
+  return write(request, std::move(answer), members);
+}
+
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members) {
   return std::visit(
       [&]<class Real>(RefineAnswer<Real>& typed) {
         return AnswerWriter<Real>(request, std::move(typed)).write(members);

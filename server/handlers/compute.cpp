@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/oracle/verify.h"
 #include "core/refine/refine.h"
 #include "proto/prepare.h"
@@ -31,7 +31,7 @@ Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request
     answer.meshes.push_back(std::move(refined).value());
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    auto refined = refine<Real>(request.curves[i], proto::curve_options(request), budget);
+    auto refined = refine<Real>(request.curves[i], proto::curve_options(request, request.curves[i]), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "curves", i);
     answer.curves.push_back(std::move(refined).value());
   }
@@ -48,7 +48,8 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
     report.meshes.push_back(std::move(verified).value());
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    auto verified = oracle::verify<Real>(request.curves[i], proto::curve_options(request), budget);
+    auto verified =
+        oracle::verify<Real>(request.curves[i], proto::curve_options(request, request.curves[i]), budget);
     if (!verified) return proto::blame_input(request, std::move(verified).error(), "curves", i);
     report.curves.push_back(std::move(verified).value());
   }

@@ -7,6 +7,7 @@
 
 #include "proto/decode.h"
 #include "server/handlers/compute.h"
+#include "server/handlers/compute_curves.h"
 #include "server/negotiation.h"
 #include "server/status.h"
 
@@ -75,6 +76,26 @@ bool choose_format(const Request& request, proto::RefineRequest& decoded) {
   return decoded.options.format.has_value();
 }
 
+Result<proto::Payload> answer_curve_task(const proto::CurveRequest& request, const Budget& budget) {
+  switch (request.task.kind) {
+    case proto::CurveTaskKind::evaluate: {
+      auto samples = compute_samples(request, budget);
+      if (!samples) return std::move(samples).error();
+      return proto::encode_samples(request, *samples);
+    }
+    case proto::CurveTaskKind::measure: {
+      auto measures = compute_measures(request, budget);
+      if (!measures) return std::move(measures).error();
+      return proto::encode_measures(request, *measures);
+    }
+    default: {
+      auto edited = compute_edited(request, budget);
+      if (!edited) return std::move(edited).error();
+      return proto::encode_edited(request, *std::move(edited));
+    }
+  }
+}
+
 }  // namespace
 
 struct GeometryHandlers::Job {
@@ -97,13 +118,12 @@ Budget GeometryHandlers::budget_for(const Request& request) const {
   return budget;
 }
 
-GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying) {
+GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying, Decode decode) {
   const Budget budget = budget_for(request);
   auto admitted = admission_.enter(budget.deadline, request.cancelled);
   if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
   const Clock::time_point start = Clock::now();
-  auto decoded = proto::decode_refine(request.body, body_kind(request).value_or(proto::BodyKind::unspecified),
-                                      request.query, limits_);
+  auto decoded = decode(request, limits_);
   std::string().swap(request.body);
   if (!decoded) return problem_response(decoded.error());
   if (verifying ? !accepts_json(request) : !choose_format(request, *decoded))
@@ -122,8 +142,24 @@ GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying
              std::move(decoded).value(), timings};
 }
 
-Response GeometryHandlers::refine(Request& request) {
-  Begun begun = begin(request, false);
+namespace {
+
+Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits) {
+  return proto::decode_refine(request.body, body_kind(request).value_or(proto::BodyKind::unspecified),
+                              request.query, limits);
+}
+
+Result<proto::RefineRequest> decode_curves(const Request& request, const proto::Limits& limits) {
+  auto decoded = proto::decode_curves(request.body, proto::CurveTaskKind::refine, request.query, limits);
+  if (!decoded) return std::move(decoded).error();
+  return std::move(decoded->curves);
+}
+
+}  // namespace
+
+Response GeometryHandlers::refine(Request& request) { return refined(begin(request, false, decode_any)); }
+
+Response GeometryHandlers::refined(Begun begun) {
   if (auto* refused = std::get_if<Response>(&begun)) return std::move(*refused);
   Job& job = std::get<Job>(begun);
   auto answer = compute_refinement(job.request, job.budget, job.timings);
@@ -138,7 +174,7 @@ Response GeometryHandlers::refine(Request& request) {
 }
 
 Response GeometryHandlers::verify(Request& request) {
-  Begun begun = begin(request, true);
+  Begun begun = begin(request, true, decode_any);
   if (auto* refused = std::get_if<Response>(&begun)) return std::move(*refused);
   Job& job = std::get<Job>(begun);
   const Clock::time_point start = Clock::now();
@@ -148,6 +184,27 @@ Response GeometryHandlers::verify(Request& request) {
   auto payload = proto::encode_report(job.request, *report, job.timings);
   if (!payload) return problem_response(payload.error());
   return payload_response(std::move(payload).value());
+}
+
+Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
+  if (kind == proto::CurveTaskKind::refine) return refined(begin(request, false, decode_curves));
+  const Budget budget = budget_for(request);
+  auto admitted = admission_.enter(budget.deadline, request.cancelled);
+  if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
+  if (!accepts_json(request)) return not_acceptable("application/json");
+  auto decoded = proto::decode_curves(request.body, kind, request.query, limits_);
+  std::string().swap(request.body);
+  if (!decoded) return problem_response(decoded.error());
+  const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes);
+  if (!bytes) return problem_response(bytes.error());
+  auto lease = std::make_shared<Quota::Lease>(memory_);
+  if (auto refused = reserve(memory_, *lease, *bytes)) return *std::move(refused);
+  auto payload = answer_curve_task(*decoded, budget);
+  if (!payload) return problem_response(payload.error());
+  Response response = payload_response(std::move(payload).value());
+  lease->shrink_to(response.size());
+  response.hold = std::move(lease);
+  return response;
 }
 
 std::optional<Response> screen_body(const Request& head) {

@@ -1,10 +1,12 @@
 #pragma once
-// POST /v1/refine and POST /v1/verify: decode, predict, reserve, compute, encode.
+// All POST requests: decode, predict, reserve, compute, encode.
 
 #include <optional>
 #include <variant>
 
 #include "core/base/budget.h"
+#include "core/base/result.h"
+#include "proto/curve_task.h"
 #include "proto/wire.h"
 #include "server/admission.h"
 #include "server/config.h"
@@ -19,12 +21,16 @@ class GeometryHandlers {
 
   Response refine(Request& request);
   Response verify(Request& request);
+  // POST /v1/curves/... and /v1/evaluate.
+  Response curves(Request& request, proto::CurveTaskKind kind);
 
  private:
   struct Job;
   using Begun = std::variant<Job, Response>;  // a Response: the request came no further
+  using Decode = Result<proto::RefineRequest> (*)(const Request& request, const proto::Limits& limits);
 
-  Begun begin(Request& request, bool verifying);
+  Begun begin(Request& request, bool verifying, Decode decode);
+  Response refined(Begun begun);
   Budget budget_for(const Request& request) const;
 
   const Config& config_;

@@ -52,6 +52,17 @@ test('the OpenAPI document is valid and the one of the sources', async () => {
   assert.deepEqual(contract.document, JSON.parse(readFileSync(join(root, 'proto/openapi.json'), 'utf8')));
 });
 
+test('what the document shows of curves is answered as it says', async () => {
+  for (const [path, { post: operation }] of Object.entries(contract.document.paths)) {
+    if (!operation?.tags.includes('curves')) continue;
+    const { value } = operation.requestBody.content['application/json'].examples.curve;
+    const { status, bytes } = await post(path, '', JSON.stringify(value));
+    assert.equal(status, 200, `${path}: ${bytes}`);
+    const { status: refused } = await post(path, '', JSON.stringify({ ...value, points: [[0, 0]] }));
+    assert.equal(refused, 422, path);
+  }
+});
+
 for (const { name, bytes } of bodies) {
   test(`${name} is refined to JSON`, async () => {
     const { status, bytes: text } = await post('/v1/refine', 'format=json&normals=true', bytes);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
 #include "proto/decode.h"
 #include "proto/problem.h"
@@ -62,7 +62,7 @@ void refine_and_encode(const proto::RefineRequest& request, const proto::Limits&
     answer.meshes.push_back(std::move(*refined));
   }
   for (const ControlCurves& curves : request.curves) {
-    auto refined = refine<double>(curves, proto::curve_options(request), Budget{});
+    auto refined = refine<double>(curves, proto::curve_options(request, curves), Budget{});
     if (!refined) return;
     answer.curves.push_back(std::move(*refined));
   }

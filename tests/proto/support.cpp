@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
 #include "proto/problem.h"
 
@@ -20,7 +20,7 @@ Result<AnyAnswer> compute_as(const RefineRequest& request) {
     answer.meshes.push_back(std::move(*refined));
   }
   for (const ControlCurves& curves : request.curves) {
-    Result<RefinedCurves<Real>> refined = refine<Real>(curves, curve_options(request), Budget{});
+    Result<RefinedCurves<Real>> refined = refine<Real>(curves, curve_options(request, curves), Budget{});
     if (!refined) return refined.error();
     answer.curves.push_back(std::move(*refined));
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "tests/core/curves/knot_reference.h"
 #include "tests/core/curves/sample_curves.h"
 

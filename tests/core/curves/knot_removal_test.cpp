@@ -88,7 +88,7 @@ TEST(KnotRemoval, finds_all_the_knots_that_carry_nothing) {
       if (const double t = spline.begin() + (spline.end() - spline.begin()) * k / 40;
           multiplicity(spline.knots, t) == 0)
         knots.push_back(t);
-    const auto refined = refine_knots(spline, knots);
+    const auto refined = refine_knots(spline, knots, {});
     ASSERT_TRUE(refined);
     const auto thinned = remove_knots(*refined, 1e-6, {});
     ASSERT_TRUE(thinned);

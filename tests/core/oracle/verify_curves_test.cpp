@@ -13,7 +13,7 @@ using subdivd::testing::as_control;
 using subdivd::testing::fewest_points;
 using subdivd::testing::kAllWraps;
 using subdivd::testing::random_curve;
-using subdivd::testing::refined;
+using subdivd::testing::refined_answer;
 
 constexpr CurveOptions kWithLimits{.level = 4, .limit = true};
 
@@ -76,7 +76,7 @@ TEST(VerifyCurves, level_zero_compares_the_limits_of_the_control_points) {
 TEST(VerifyCurves, finds_a_planted_point_and_its_parameter) {
   auto curves = random_curve(CurveWrap::pinned, 9);
   curves.vertex_counts = {4, 5};
-  auto ours = refined(curves, 3);
+  auto ours = refined_answer(curves, 3);
   ours.points[3 * (25 + 13) + 2] += 1e-6;  // 25 points of the first curve come before
   const LevelReport report = compared(ours, curves);
   EXPECT_FALSE(passed(report));
@@ -90,7 +90,7 @@ TEST(VerifyCurves, finds_a_planted_point_and_its_parameter) {
 TEST(VerifyCurves, finds_a_planted_limit_in_every_wrap) {
   for (const CurveWrap wrap : kAllWraps) {
     const auto curves = random_curve(wrap, 6);
-    auto ours = refined(curves, 2);
+    auto ours = refined_answer(curves, 2);
     ours.limit_points[3 * 5] += 1e-6;
     const LevelReport report = compared(ours, curves);
     EXPECT_TRUE(report.deviations[0].within_tolerance);
@@ -101,7 +101,7 @@ TEST(VerifyCurves, finds_a_planted_limit_in_every_wrap) {
 
 TEST(VerifyCurves, a_nonperiodic_curve_begins_after_the_border_does) {
   const auto curves = random_curve(CurveWrap::nonperiodic, 6);
-  auto ours = refined(curves, 2);
+  auto ours = refined_answer(curves, 2);
   ours.points[3] += 1;
   EXPECT_EQ(compared(ours, curves).deviations[0].worst_u, 1);
 }
@@ -110,7 +110,7 @@ TEST(VerifyCurves, finds_a_curve_refined_by_another_rule_for_its_ends) {
   const auto closed = random_curve(CurveWrap::periodic, 6);
   auto as_open = closed;
   as_open.wrap = CurveWrap::pinned;
-  auto ours = refined(closed, 2);
+  auto ours = refined_answer(closed, 2);
   ours.wrap = CurveWrap::pinned;
   ours.vertex_counts = {21};
   ours.points.resize(3 * 21), ours.limit_points.resize(3 * 21);
@@ -122,7 +122,7 @@ TEST(VerifyCurves, finds_a_curve_refined_by_another_rule_for_its_ends) {
 
 TEST(VerifyCurves, finds_a_missing_point) {
   const auto curves = random_curve(CurveWrap::pinned, 6);
-  auto ours = refined(curves, 2);
+  auto ours = refined_answer(curves, 2);
   ours.points.resize(ours.points.size() - 3);
   EXPECT_FALSE(passed(compared(ours, curves)));
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "tests/core/curves/sample_curves.h"
 
 namespace subdivd::testing {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/curves/cubic.h"
+#include "core/curves/subdivision.h"
 #include "core/refine/numbering.h"
 #include "core/refine/refine.h"
 #include "tests/shapes/build.h"

@@ -1,0 +1,98 @@
+#pragma once
+// The door for everything under /v1/curves (and /v1/evaluate): a body with curves and with what is asked
+// about them in, an answer out. Always JSON.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curves/arc_length.h"
+#include "core/curves/bounds.h"
+#include "core/curves/closest.h"
+#include "core/curves/convergence.h"
+#include "core/curves/differential.h"
+#include "core/curves/flatten.h"
+#include "proto/decode.h"
+#include "proto/wire.h"
+
+namespace subdivd::proto {
+
+enum class CurveTaskKind { refine, evaluate, insert_knot, remove_knot, convert, measure };
+
+// What convert makes of a curve; the words on the wire are nurbs, bezier, bspline, catmullRom, hermite.
+enum class CurveForm { nurbs, bezier, bspline, catmull_rom, hermite };
+
+// Members beside the curves; which of them a task takes and needs, decode_curves() sees to.
+struct CurveTask {
+  CurveTaskKind kind = CurveTaskKind::refine;
+  // evaluate: parameter k on curve number sample_curves[k], counted over all curves of the body
+  std::vector<Index> sample_curves;
+  std::vector<double> sample_ts;
+  Index derivatives = 0;  // orders 1 to this
+  bool frames = false;
+  std::vector<double> insert;                 // insert_knot
+  std::optional<std::vector<double>> remove;  // remove_knot; absent: whatever can be
+  // remove_knot, convert: an absolute distance; measure: of the length, relative
+  std::optional<double> tolerance;
+  CurveForm to = CurveForm::nurbs;              // convert
+  std::optional<Index> to_degree;               // convert
+  std::optional<std::array<double, 2>> range;   // convert: the part that is kept
+  std::optional<std::array<double, 2>> domain;  // convert: its parameters afterwards
+  bool reversed = false;                        // convert
+  std::vector<double> closest_to;               // measure: points as wide as the curves'
+  Index closest_width = 0;
+  std::optional<double> flatten;       // measure: chord tolerance
+  std::optional<Index> equal_lengths;  // measure: how many parameters
+  std::optional<Index> convergence;    // measure: levels
+};
+
+inline constexpr Index kMostDerivatives = 32;
+inline constexpr Index kMostEqualLengths = 1'000'000;
+
+struct CurveRequest {
+  RefineRequest curves;  // no meshes
+  CurveTask task;
+};
+
+// As decode_refine; `kind` says which members the body may have.
+Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
+                                   const Limits& limits);
+
+// What evaluate found at every sample.
+struct CurveSamples {
+  std::vector<Index> curves;
+  std::vector<double> ts;
+  Index order = 0;
+  std::vector<Index> widths;              // coordinates at every sample
+  std::vector<std::vector<double>> rows;  // per sample: point and derivatives
+  bool framed = false;
+  std::vector<std::optional<FrenetFrame>> frames;
+  std::vector<std::optional<double>> curvatures, torsions;
+};
+
+// What measure found about one curve.
+struct CurveMeasure {
+  ArcLength length;
+  Box box;
+  std::vector<ClosestPoint> closest;
+  std::optional<Polyline> polyline;
+  std::optional<std::vector<double>> equal_parameters;
+  std::optional<Convergence> convergence;
+};
+
+// Curves on knots or in another basis, with what was done to each.
+struct EditedCurves {
+  RefineAnswer<double> answer;
+  std::vector<Count> removed;        // remove_knot, per curve
+  std::vector<double> error_bounds;  // remove_knot, convert: per curve
+};
+
+Payload encode_samples(const CurveRequest& request, const CurveSamples& samples);
+Payload encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures);
+Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited);
+
+}  // namespace subdivd::proto

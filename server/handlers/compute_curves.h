@@ -1,0 +1,22 @@
+#pragma once
+// From a decoded request under /v1/curves to the core and back.
+
+#include <vector>
+
+#include "core/base/budget.h"
+#include "core/base/result.h"
+#include "proto/curve_task.h"
+
+namespace subdivd::server {
+
+// Bytes that answering will take at most, beside the body: to be reserved before anything is computed.
+// too_large over `most`, the bytes of an answer.
+Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most);
+
+Result<proto::CurveSamples> compute_samples(const proto::CurveRequest& request, const Budget& budget);
+Result<std::vector<proto::CurveMeasure>> compute_measures(const proto::CurveRequest& request,
+                                                          const Budget& budget);
+// Insertion, removal and conversion: every curve of the request for itself.
+Result<proto::EditedCurves> compute_edited(const proto::CurveRequest& request, const Budget& budget);
+
+}  // namespace subdivd::server

@@ -1,0 +1,117 @@
+// Curves: refinement beside a copy of the answer, evaluation at many parameters beside the definition of the
+// basis, which asks every control point. "ns" is the time per point of the answer or per parameter; "ratio"
+// is measured in the same round, one beside the other.
+#include <benchmark/benchmark.h>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/base/buffer.h"
+#include "core/curves/bspline.h"
+#include "core/curves/subdivision.h"
+
+namespace subdivd {
+namespace {
+
+#ifdef __GLIBC__
+// As a server that has been running for a while.
+[[maybe_unused]] const bool kWarm =
+    mallopt(M_MMAP_MAX, 0) == 1 && mallopt(M_TRIM_THRESHOLD, 2'000'000'000) == 1;
+#endif
+
+double seconds(auto&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<double> wave(Count points, Index width) {
+  std::vector<double> values(points * width);
+  for (Count i = 0; i < values.size(); ++i) values[i] = std::sin(0.37 * static_cast<double>(i));
+  return values;
+}
+
+void refine_beside_memcpy(benchmark::State& state, Index degree) {
+  ControlCurves curves;
+  curves.degree = degree;
+  curves.points = wave(static_cast<Count>(state.range(0)), 3);
+  const CurveOptions options{.level = static_cast<Index>(state.range(1))};
+  const Buffer<double> like = refine<double>(curves, options, {})->points;
+  Buffer<double> copy = like;
+  double ours = 0, copied = 0;
+  for (auto _ : state) {
+    ours += seconds([&] { benchmark::DoNotOptimize(refine<double>(curves, options, {})); });
+    copied += seconds([&] { std::memcpy(copy.data(), like.data(), like.size() * sizeof(double)); });
+    benchmark::DoNotOptimize(copy.data());
+  }
+  const double points = static_cast<double>(like.size() / 3) * static_cast<double>(state.iterations());
+  state.counters["ns"] = ours * 1e9 / points;
+  state.counters["times_memcpy"] = ours / copied;
+}
+
+// A cubic in space on uneven knots.
+Spline uneven(Count points) {
+  Spline spline{3, 3, false, false, {0, 0, 0, 0}, wave(points, 3)};
+  double t = 0;
+  for (Count i = 4; i < points; ++i) spline.knots.push_back(t += 1 + 0.5 * std::sin(static_cast<double>(i)));
+  spline.knots.insert(spline.knots.end(), 4, t + 1);
+  return spline;
+}
+
+// By the definition: every control point's function, each by its own recursion from degree 0.
+double all_functions(const Spline& spline, Index degree, Count i, double t) {
+  const std::vector<double>& u = spline.knots;
+  if (degree == 0) return u[i] <= t && t < u[i + 1] ? 1 : 0;
+  double sum = 0;
+  if (u[i] < u[i + degree])
+    sum += (t - u[i]) / (u[i + degree] - u[i]) * all_functions(spline, degree - 1, i, t);
+  if (u[i + 1] < u[i + degree + 1])
+    sum += (u[i + degree + 1] - t) / (u[i + degree + 1] - u[i + 1]) *
+           all_functions(spline, degree - 1, i + 1, t);
+  return sum;
+}
+
+void evaluate_beside_all_functions(benchmark::State& state) {
+  const Spline spline = uneven(static_cast<Count>(state.range(0)));
+  constexpr Count kAll = 10'000'000, kFew = 20'000;
+  std::vector<double> ts(kAll), points(3 * kAll);
+  const double step = (spline.end() - spline.begin()) / kAll;
+  for (Count k = 0; k < kAll; ++k) ts[k] = spline.begin() + step * static_cast<double>(k);
+  double ours = 0, naive = 0;
+  for (auto _ : state) {
+    const SplineEvaluator evaluator(spline);
+    ours += seconds([&] { evaluator.evaluate(ts, points); });
+    benchmark::DoNotOptimize(points.data());
+    const Count few = kFew * 100 / static_cast<Count>(state.range(0));
+    naive += seconds([&] {
+               for (Count k = 0; k < few; ++k) {
+                 const double t = ts[k * (kAll / few)];
+                 double point[3] = {};
+                 for (Count i = 0; i < spline.point_count(); ++i) {
+                   const double weight = all_functions(spline, 3, i, t);
+                   for (Count x = 0; x < 3; ++x) point[x] += weight * spline.points[3 * i + x];
+                 }
+                 benchmark::DoNotOptimize(point);
+               }
+             }) *
+             kAll / static_cast<double>(few);
+  }
+  const double all = static_cast<double>(kAll) * static_cast<double>(state.iterations());
+  state.counters["ns"] = ours * 1e9 / all;
+  state.counters["naive_ns"] = naive * 1e9 / all;
+  state.counters["ratio"] = naive / ours;
+}
+
+BENCHMARK_CAPTURE(refine_beside_memcpy, cubic, 3)->Args({1'000'000, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(refine_beside_memcpy, chaikin, 2)->Args({1'000'000, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(refine_beside_memcpy, quintic, 5)->Args({1'000'000, 3})->Unit(benchmark::kMillisecond);
+BENCHMARK(evaluate_beside_all_functions)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace subdivd

@@ -1,0 +1,207 @@
+// What the routes under /v1/curves compute, without a socket.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "server/handlers/compute_curves.h"
+
+namespace subdivd::server {
+namespace {
+
+using nlohmann::json;
+using Kind = proto::CurveTaskKind;
+
+json circle() {
+  const double s = std::sqrt(0.5);
+  return {{"type", "nurbs"},
+          {"order", 3},
+          {"knots", {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}},
+          {"points", {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}}},
+          {"pointWeights", {1, s, 1, s, 1, s, 1, s, 1}}};
+}
+json cubic() { return {{"points", {{0, 0}, {1, 1}, {2, 0}, {3, 1}, {4, 0}}}}; }
+
+json with(json curve, const json& members) {
+  curve.update(members);
+  return curve;
+}
+
+std::string text_of(const proto::Payload& payload) {
+  std::string text;
+  for (const proto::Chunk& chunk : payload.chunks)
+    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
+  return text;
+}
+
+// The answer's JSON, or the code and the first place of the refusal.
+json ask(Kind kind, const json& body, const Budget& budget = {}) {
+  const auto refusal = [](const Error& error) {
+    json place = json::array();
+    for (const PathStep& step : error.where)
+      std::visit([&](const auto& value) { place.push_back(value); }, step);
+    return json{{"code", name_of(error.code)}, {"where", place}};
+  };
+  auto request = proto::decode_curves(body.dump(), kind, {}, {});
+  if (!request) return refusal(request.error());
+  if (auto bytes = predict_curve_task(*request, Count{1} << 30); !bytes) return refusal(bytes.error());
+  if (kind == Kind::evaluate) {
+    auto samples = compute_samples(*request, budget);
+    return samples ? json::parse(text_of(encode_samples(*request, *samples))) : refusal(samples.error());
+  }
+  if (kind == Kind::measure) {
+    auto measures = compute_measures(*request, budget);
+    return measures ? json::parse(text_of(encode_measures(*request, *measures))) : refusal(measures.error());
+  }
+  auto edited = compute_edited(*request, budget);
+  if (!edited) return refusal(edited.error());
+  return json::parse(text_of(*encode_edited(*request, *std::move(edited))));
+}
+
+TEST(CurveTasks, evaluate_points_derivatives_and_frames) {
+  const json answer =
+      ask(Kind::evaluate,
+          with(circle(),
+               {{"samples", {{"curves", {0, 0}}, {"ts", {0.5, 4}}}}, {"derivatives", 1}, {"frames", true}}));
+  const json& samples = answer["samples"];
+  const double s = std::sqrt(0.5);
+  EXPECT_NEAR(samples["points"][0][0], s, 1e-15);
+  EXPECT_NEAR(samples["points"][1][0], 1, 1e-15);
+  EXPECT_EQ(samples["derivatives"].size(), 1u);
+  EXPECT_NEAR(samples["tangents"][0][0], -s, 1e-15);
+  EXPECT_NEAR(samples["normals"][0][0], -s, 1e-15);
+  EXPECT_NEAR(samples["curvatures"][1], 1, 1e-14);
+  EXPECT_TRUE(samples["torsions"][0].is_null());
+  EXPECT_TRUE(samples["binormals"][0].is_null());
+}
+
+TEST(CurveTasks, evaluate_counts_curves_over_the_whole_body) {
+  json two = cubic();
+  two["curveVertexCounts"] = {2, 3};
+  const json answer = ask(
+      Kind::evaluate, {{"curves", {two, circle()}}, {"samples", {{"curves", {0, 1, 2}}, {"ts", {1, 0, 1}}}}});
+  EXPECT_EQ(answer["samples"]["points"], json({{1.0, 1.0}, {2.0, 0.0}, {0.0, 1.0}}));
+  EXPECT_EQ(ask(Kind::evaluate, {{"curves", {two}}, {"samples", {{"curves", {2}}, {"ts", {0}}}}})["where"],
+            json({"samples", "curves", 0}));
+  EXPECT_EQ(
+      ask(Kind::evaluate, {{"curves", {two}}, {"samples", {{"curves", {0, 1}}, {"ts", {0, 2.5}}}}})["where"],
+      json({"samples", "ts", 1}));
+}
+
+TEST(CurveTasks, evaluate_has_no_formula_for_four_points) {
+  const json answer =
+      ask(Kind::evaluate, with(cubic(), {{"basis", "fourPoint"}, {"samples", {{"ts", {1}}}}}));
+  EXPECT_EQ(answer["code"], "unsupported");
+}
+
+TEST(CurveTasks, insertion_and_removal_take_each_other_back) {
+  const json more = ask(Kind::insert_knot, with(circle(), {{"insert", {2.5, 0.5, 0.5}}}));
+  EXPECT_EQ(more["knots"], json({0, 0, 0, 0.5, 0.5, 1, 1, 2, 2, 2.5, 3, 3, 4, 4, 4}));
+  EXPECT_EQ(more["order"], json({3}));
+  json again = more;
+  again["remove"] = {0.5, 2.5, 0.5};
+  again["tolerance"] = 1e-12;
+  const json less = ask(Kind::remove_knot, again);
+  EXPECT_EQ(less["removed"], json({3})) << less;
+  EXPECT_EQ(less["knots"], circle()["knots"]);
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_NEAR(less["points"][i][0].get<double>(), circle()["points"][i][0].get<double>(), 1e-14);
+  EXPECT_LT(less["errorBounds"][0], 1e-13);
+  again.erase("remove");
+  EXPECT_GE(ask(Kind::remove_knot, again)["removed"][0], 3);
+}
+
+TEST(CurveTasks, refusals_point_at_the_knot) {
+  EXPECT_EQ(ask(Kind::insert_knot, with(circle(), {{"insert", {0.5, 9}}}))["where"], json({"insert", 1}));
+  EXPECT_EQ(ask(Kind::insert_knot, with(circle(), {{"insert", {0.5, 0.25, 1}}}))["where"],
+            json({"insert", 2}));
+  EXPECT_EQ(ask(Kind::remove_knot, with(circle(), {{"remove", {1, 0.5}}, {"tolerance", 1}}))["where"],
+            json({"remove", 1}));
+  EXPECT_EQ(ask(Kind::remove_knot, with(circle(), {{"tolerance", -1}}))["where"], json({"tolerance"}));
+}
+
+TEST(CurveTasks, convert_between_bases_and_back) {
+  const json bezier = ask(Kind::convert, with(cubic(), {{"to", "bezier"}}));
+  EXPECT_EQ(bezier["basis"], "bezier");
+  json again = bezier;
+  again.erase("errorBounds");
+  again["to"] = "bspline";
+  const json bspline = ask(Kind::convert, again);
+  ASSERT_EQ(bspline["points"].size(), 7u) << bspline;  // the phantom points at both ends with it
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(bspline["points"][i + 1][0].get<double>(), cubic()["points"][i][0].get<double>(), 1e-13);
+  EXPECT_EQ(ask(Kind::convert, with(cubic(), {{"to", "catmullRom"}}))["where"], json({"to"}));
+  EXPECT_EQ(ask(Kind::convert, with(circle(), {{"to", "bezier"}}))["code"], "unsupported");
+}
+
+TEST(CurveTasks, convert_cuts_turns_and_moves) {
+  const json answer =
+      ask(Kind::convert, with(circle(), {{"range", {0, 1}}, {"reversed", true}, {"domain", {10, 20}}}));
+  EXPECT_EQ(answer["knots"], json({10, 10, 10, 20, 20, 20}));
+  EXPECT_EQ(answer["points"][0], json({0, 1}));
+  EXPECT_EQ(answer["points"][2], json({1, 0}));
+  EXPECT_EQ(ask(Kind::convert, with(circle(), {{"range", {3, 5}}}))["where"], json({"range"}));
+  EXPECT_EQ(ask(Kind::convert, with(circle(), {{"domain", {3, 3}}}))["where"], json({"domain"}));
+}
+
+TEST(CurveTasks, convert_changes_the_degree) {
+  const json up = ask(Kind::convert, with(circle(), {{"toDegree", 5}}));
+  EXPECT_EQ(up["order"], json({6}));
+  json again = up;
+  again.erase("errorBounds");
+  again["toDegree"] = 2;
+  const json down = ask(Kind::convert, again);
+  EXPECT_EQ(down["knots"], circle()["knots"]) << down;
+  EXPECT_LT(down["errorBounds"][0], 1e-12);
+  EXPECT_EQ(ask(Kind::convert, with(circle(), {{"toDegree", 1}}))["where"], json({"toDegree"}));
+  EXPECT_TRUE(ask(Kind::convert, with(circle(), {{"toDegree", 1}, {"tolerance", 1}})).contains("points"));
+}
+
+TEST(CurveTasks, measure_a_circle) {
+  const json answer =
+      ask(Kind::measure,
+          with(circle(), {{"closestTo", {{3, 0}, {0, 2}}}, {"equalLengths", 5}, {"flatten", 0.01}}));
+  const json& one = answer["measures"][0];
+  const double error = std::abs(one["length"]["value"].get<double>() - 2 * std::numbers::pi);
+  EXPECT_LE(error, one["length"]["errorBound"]);
+  EXPECT_NEAR(one["bounds"]["low"][1], -1, 1e-14);
+  EXPECT_NEAR(one["closest"][0]["distance"], 2, 1e-14);
+  EXPECT_NEAR(one["closest"][1]["t"], 1, 1e-7);
+  EXPECT_NEAR(one["equalLengths"]["ts"][3], 3, 1e-9);
+  EXPECT_EQ(one["polyline"]["ts"].size(), one["polyline"]["points"].size());
+  EXPECT_EQ(ask(Kind::measure, with(circle(), {{"closestTo", {{1, 2, 3}}}}))["where"], json({"closestTo"}));
+  EXPECT_EQ(ask(Kind::measure, with(circle(), {{"flatten", 0}}))["where"], json({"flatten"}));
+}
+
+TEST(CurveTasks, measure_how_fast_the_polygon_comes) {
+  const json answer = ask(Kind::measure, with(cubic(), {{"convergence", 5}}));
+  const json& convergence = answer["measures"][0]["convergence"];
+  EXPECT_EQ(convergence["distances"].size(), 6u);
+  EXPECT_NEAR(convergence["ratios"][4], 0.25, 0.01);
+  EXPECT_EQ(ask(Kind::measure, with(circle(), {{"convergence", 5}}))["where"], json({"convergence"}));
+}
+
+TEST(CurveTasks, answers_are_requests) {
+  for (const Kind kind : {Kind::insert_knot, Kind::remove_knot, Kind::convert}) {
+    json answer = ask(kind, kind == Kind::insert_knot ? with(circle(), {{"insert", {0.5}}}) : circle());
+    answer.erase("removed");
+    answer.erase("errorBounds");
+    EXPECT_TRUE(ask(Kind::measure, answer).contains("measures")) << answer;
+  }
+}
+
+TEST(CurveTasks, stop_when_nobody_waits_and_refuse_what_is_too_large) {
+  const std::atomic<bool> gone = true;
+  Budget budget;
+  budget.cancelled = &gone;
+  EXPECT_EQ(ask(Kind::measure, circle(), budget)["code"], "cancelled");
+  EXPECT_EQ(ask(Kind::convert, circle(), budget)["code"], "cancelled");
+  EXPECT_EQ(ask(Kind::evaluate, with(circle(), {{"samples", {{"ts", {0}}}}}), budget)["code"], "cancelled");
+  const auto request = proto::decode_curves(circle().dump(), Kind::convert, {}, {});
+  EXPECT_EQ(predict_curve_task(*request, 100).error().code, ErrorCode::too_large);
+}
+
+}  // namespace
+}  // namespace subdivd::server
