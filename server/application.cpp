@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "proto/openapi.h"
+#include "proto/schemes.h"
 #include "server/log.h"
 #include "server/status.h"
 #include "server/web/page.h"
 
 namespace subdivd::server {
 namespace {
+
+constexpr std::string_view kSpectrumPath = "/v1/schemes/{name}/{valence}";
 
 std::size_t concurrency(const Config& config) {
   return config.max_concurrent > 0 ? config.max_concurrent
@@ -58,6 +61,9 @@ std::vector<Route> Application::routes() {
       {"POST", "/v1/curves/remove-knot", curves(proto::CurveTaskKind::remove_knot)},
       {"POST", "/v1/curves/convert", curves(proto::CurveTaskKind::convert)},
       {"POST", "/v1/curves/measure", curves(proto::CurveTaskKind::measure)},
+      {"GET", "/v1/schemes",
+       [](Request&) { return text_response("application/json", proto::schemes_json()); }},
+      {"GET", kSpectrumPath, [this](Request& request) { return geometry_.spectrum(request, kSpectrumPath); }},
       {"GET", "/livez", [](Request&) { return text_response("text/plain; charset=utf-8", "ok\n"); }},
       {"GET", "/readyz", [this](Request&) { return readiness(); }},
       {"GET", "/openapi.json",

@@ -1,5 +1,5 @@
 #pragma once
-// Exact paths and methods.
+// Paths and methods. A step of a route's path in braces stands for any one step that is not empty.
 
 #include <functional>
 #include <string>
@@ -17,6 +17,10 @@ struct Route {
   std::string_view path;
   Handler handler;
 };
+
+// Whether `path` is one of the route's; its steps in the places of braces come back in `values`, if it is not
+// null.
+bool matches(std::string_view route, std::string_view path, std::vector<std::string>* values);
 
 class Router {
  public:

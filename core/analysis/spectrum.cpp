@@ -11,7 +11,7 @@ namespace {
 
 using Row = std::vector<double>;
 
-constexpr std::string_view kLaneRiesenfeld = "laneRiesenfeld", kFourPoint = "fourPoint";
+constexpr std::string_view kLaneRiesenfeld = "bspline", kFourPoint = "fourPoint";
 
 double dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0;

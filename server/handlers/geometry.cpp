@@ -5,10 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "core/analysis/spectrum.h"
 #include "proto/decode.h"
+#include "proto/schemes.h"
 #include "server/handlers/compute.h"
 #include "server/handlers/compute_curves.h"
 #include "server/negotiation.h"
+#include "server/router.h"
 #include "server/status.h"
 
 namespace subdivd::server {
@@ -204,6 +207,28 @@ Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
   Response response = payload_response(std::move(payload).value());
   lease->shrink_to(response.size());
   response.hold = std::move(lease);
+  return response;
+}
+
+Response GeometryHandlers::spectrum(Request& request, std::string_view route) {
+  std::vector<std::string> steps;
+  matches(route, request.path, &steps);
+  const auto choice = proto::decode_scheme(steps[0], steps[1], request.query);
+  if (!choice) return problem_response(choice.error());
+  const Budget budget = budget_for(request);
+  auto admitted = admission_.enter(budget.deadline, request.cancelled);
+  if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
+  auto spectrum = subdivd::spectrum(*choice, budget);
+  if (!spectrum) {
+    // The valence is a step of the path, everything else a parameter.
+    Path& where = spectrum.error().where;
+    if (where == Path{"valence"} || where == Path{"scheme"}) where.clear();
+    if (!where.empty()) where = {"?" + std::get<std::string>(where[0])};
+    return problem_response(spectrum.error());
+  }
+  Response response;
+  response.content_type = "application/json";
+  response.body.push_back(Bytes::of(proto::spectrum_json(*spectrum)));
   return response;
 }
 

@@ -2,6 +2,7 @@
 // All POST requests: decode, predict, reserve, compute, encode.
 
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "core/base/budget.h"
@@ -23,6 +24,8 @@ class GeometryHandlers {
   Response verify(Request& request);
   // POST /v1/curves/... and /v1/evaluate.
   Response curves(Request& request, proto::CurveTaskKind kind);
+  // GET of `route`, the path of a scheme and a valence.
+  Response spectrum(Request& request, std::string_view route);
 
  private:
   struct Job;

@@ -205,6 +205,7 @@ TEST(Application, answers_405_with_the_allowed_methods) {
 TEST(Application, answers_every_get_to_head_without_a_body) {
   const RunningApplication server;
   for (const Route& route : server.application.router().routes()) {
+    if (route.path.find('{') != std::string_view::npos) continue;  // no path itself
     if (route.method != "GET") continue;
     const std::string path(route.path);
     const RawResponse got = ask(server.port, get(path));
@@ -265,6 +266,36 @@ TEST(Application, describes_every_route) {
   const RawResponse response = ask(server.port, get("/openapi.json"));
   for (const Route& route : server.application.router().routes())
     EXPECT_TRUE(holds(response, "\"" + std::string(route.path) + "\":")) << route.path;
+}
+TEST(Application, finds_schemes_by_the_steps_of_their_paths) {
+  const RunningApplication server;
+  EXPECT_EQ(ask(server.port, get("/v1/schemes")).status, 200);
+  const RawResponse five = ask(server.port, get("/v1/schemes/loop/5?weights=warren"));
+  EXPECT_EQ(five.status, 200) << five.body;
+  EXPECT_TRUE(holds(five, "\"limitMask\""));
+  EXPECT_EQ(ask(server.port, get("/v1/schemes/loop/2")).status, 422);
+  EXPECT_EQ(ask(server.port, get("/v1/schemes/loop/five")).status, 422);
+  for (const char* path :
+       {"/v1/schemes/loop", "/v1/schemes/loop/", "/v1/schemes//5", "/v1/schemes/loop/5/", "/v1/scheme"})
+    EXPECT_EQ(ask(server.port, get(path)).status, 404) << path;
+  EXPECT_EQ(ask(server.port, post("/v1/schemes/loop/5", "{}")).status, 405);
+}
+TEST(Application, answers_what_is_asked_about_curves) {
+  const RunningApplication server;
+  const std::string curve = R"("points":[[0,0],[1,1],[2,0],[3,1]])";
+  const auto asked = [&](const std::string& path, const std::string& members) {
+    return ask(server.port, post(path, "{" + curve + members + "}", "Content-Type: application/json\r\n"));
+  };
+  EXPECT_TRUE(holds(asked("/v1/curves/refine?level=1", ""), "\"points\""));
+  EXPECT_TRUE(holds(asked("/v1/evaluate", R"(,"samples":{"ts":[1]})"), "\"points\""));
+  EXPECT_TRUE(holds(asked("/v1/curves/convert", R"(,"to":"bezier")"), "\"bezier\""));
+  EXPECT_TRUE(holds(asked("/v1/curves/measure", ""), "\"errorBound\""));
+  EXPECT_EQ(asked("/v1/curves/insert-knot", "").status, 422);
+  EXPECT_EQ(asked("/v1/curves/refine?format=glb", "").body.substr(0, 4), "glTF");
+  EXPECT_EQ(ask(server.port, post("/v1/curves/measure", "{" + curve + "}",
+                                  "Content-Type: application/json\r\nAccept: model/gltf-binary\r\n"))
+                .status,
+            406);
 }
 TEST(Application, serves_a_page_that_names_its_version) {
   const RunningApplication server;
