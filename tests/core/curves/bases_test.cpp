@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "core/curves/edit.h"
@@ -13,9 +12,9 @@ namespace subdivd {
 namespace {
 
 std::vector<double> random_points(Count count, Index width, unsigned seed) {
-  std::uniform_real_distribution<double> unit(-1, 1);
+  samples::Random random(seed);
   std::vector<double> points(count * width);
-  for (double& x : points) x = unit(samples::seeded(seed++));
+  for (double& x : points) x = random.centred();
   return points;
 }
 

@@ -146,11 +146,10 @@ TEST(Bounds, of_the_largest_doubles_do_not_overflow) {
 }
 
 TEST(Bounds, never_leave_the_box_of_the_control_points) {
-  std::mt19937& engine = samples::seeded(1);
-  std::uniform_real_distribution<double> unit(-1, 1);
+  samples::Random random(1);
   for (const double size : {1.0, 1e-300, std::numeric_limits<double>::max()})
     for (int i = 0; i < 1000; ++i) {
-      const double a = size * unit(engine), b = i % 2 == 0 ? size * unit(engine) : size;
+      const double a = size * random.centred(), b = i % 2 == 0 ? size * random.centred() : size;
       const Box box = box_of(bezier(1, {a, b}));
       EXPECT_GE(box.low[0], std::min(a, b));
       EXPECT_LE(box.high[0], std::max(a, b));

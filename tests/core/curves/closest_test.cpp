@@ -40,10 +40,9 @@ Error refusal(const Spline& spline, const std::vector<double>& point, const Budg
   return found ? Error{} : found.error();
 }
 
-std::vector<double> random_point(std::mt19937& engine, Index dimension, double size) {
-  std::uniform_real_distribution<double> unit(-size, size);
+std::vector<double> random_point(samples::Random& random, Index dimension, double size) {
   std::vector<double> point(dimension);
-  for (double& x : point) x = unit(engine);
+  for (double& x : point) x = size * random.centred();
   return point;
 }
 
@@ -69,22 +68,22 @@ double sampled_distance(const Spline& spline, const std::vector<double>& point) 
 }
 
 TEST(Closest, is_as_close_as_anything_found_by_looking_everywhere) {
-  std::mt19937 engine(11);
+  samples::Random random(11);
   for (const auto& [name, spline] : samples::all_splines())
     for (int i = 0; i < 4; ++i) {
-      const auto point = random_point(engine, spline.dimension(), 1.5);
+      const auto point = random_point(random, spline.dimension(), 1.5);
       EXPECT_LE(closest(spline, point).distance, sampled_distance(spline, point) + 1e-12) << name;
     }
 }
 
 // Coarsely, but from many points: no other branch of the curve is closer.
 TEST(Closest, misses_no_branch_of_the_curve) {
-  std::mt19937 engine(16);
+  samples::Random random(16);
   for (const auto& [name, spline] : samples::all_splines()) {
     std::vector<std::vector<double>> all;
     for (const double t : samples::parameters(spline, 300)) all.push_back(samples::point_at(spline, t));
     for (int i = 0; i < 100; ++i) {
-      const auto point = random_point(engine, spline.dimension(), 1);
+      const auto point = random_point(random, spline.dimension(), 1);
       double least = HUGE_VAL;
       for (const auto& sample : all) least = std::min(least, samples::distance(sample, point));
       ASSERT_LE(closest(spline, point).distance, least + 1e-12) << name;
@@ -93,9 +92,9 @@ TEST(Closest, misses_no_branch_of_the_curve) {
 }
 
 TEST(Closest, reports_the_point_at_its_parameter_and_its_distance) {
-  std::mt19937 engine(12);
+  samples::Random random(12);
   for (const auto& [name, spline] : samples::all_splines()) {
-    const auto point = random_point(engine, spline.dimension(), 1);
+    const auto point = random_point(random, spline.dimension(), 1);
     const ClosestPoint found = closest(spline, point);
     EXPECT_EQ(found.point, samples::point_at(spline, found.parameter)) << name;
     EXPECT_NEAR(found.distance, samples::distance(found.point, point), 1e-15) << name;
@@ -103,9 +102,9 @@ TEST(Closest, reports_the_point_at_its_parameter_and_its_distance) {
 }
 
 TEST(Closest, meets_the_curve_at_a_right_angle_inside_smooth_pieces) {
-  std::mt19937 engine(13);
+  samples::Random random(13);
   for (const auto& [name, spline] : samples::all_splines()) {
-    const auto point = random_point(engine, spline.dimension(), 1);
+    const auto point = random_point(random, spline.dimension(), 1);
     const ClosestPoint found = closest(spline, point);
     const bool inside = std::ranges::none_of(
         spline.knots, [&](double knot) { return std::abs(knot - found.parameter) < 1e-9; });
@@ -187,10 +186,10 @@ TEST(Closest, of_a_circle_with_a_ripple_is_found_with_bounded_work) {
 }
 
 TEST(Closest, of_polylines_is_that_of_the_closest_segment) {
-  std::mt19937 engine(14);
+  samples::Random random(14);
   for (unsigned seed = 0; seed < 8; ++seed) {
     const Spline line = samples::random_spline(seed, 1, 3, false, true, 1);
-    const auto point = random_point(engine, 3, 1);
+    const auto point = random_point(random, 3, 1);
     double best = HUGE_VAL;
     for (Count i = 0; i + 1 < line.point_count(); ++i) {
       const auto a = line.point(i), b = line.point(i + 1);
@@ -258,12 +257,12 @@ TEST(Closest, keeps_its_accuracy_far_from_the_origin) {
 }
 
 TEST(Closest, in_one_to_seven_dimensions_and_high_degrees_is_closest) {
-  std::mt19937 engine(15);
+  samples::Random random(15);
   for (const Index degree : {2u, 15u, 63u})
     for (const Index dimension : {1u, 4u, 7u}) {
       const Spline spline =
           samples::random_spline(degree + dimension, degree, dimension, degree == 15, true, 1);
-      const auto point = random_point(engine, dimension, 1);
+      const auto point = random_point(random, dimension, 1);
       EXPECT_LE(closest(spline, point).distance, sampled_distance(spline, point) + 1e-12)
           << degree << ' ' << dimension;
     }

@@ -1,10 +1,10 @@
 #pragma once
 // Control curves for the tests: random ones from a fixed seed, of every basis, and what refining gives.
 
-#include <random>
 #include <string>
 
 #include "core/curves/subdivision.h"
+#include "tests/shapes/random.h"
 
 namespace subdivd::testing {
 
@@ -18,12 +18,11 @@ inline Index fewest_points(CurveWrap wrap) {
 
 // Coordinates between -1 and 1.
 inline ControlCurves random_curve(CurveWrap wrap, Index points, Index width = 3) {
-  std::mt19937 random(kCurveSeed + points * 31 + width);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
+  shapes::Random random(kCurveSeed + points * 31 + width);
   ControlCurves curves;
   curves.wrap = wrap;
   curves.width = width;
-  for (Index k = 0; k < points * width; ++k) curves.points.push_back(coordinate(random));
+  for (Index k = 0; k < points * width; ++k) curves.points.push_back(random.centred());
   return curves;
 }
 

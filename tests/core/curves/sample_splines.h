@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/curves/bspline.h"
 #include "core/curves/spline.h"
+#include "tests/shapes/random.h"
 
 namespace subdivd::samples {
 
@@ -17,35 +17,31 @@ struct Named {
   Spline spline;
 };
 
-inline std::mt19937& seeded(unsigned seed) {
-  static std::mt19937 engine;
-  engine.seed(seed);
-  return engine;
-}
+using shapes::Random;
+
+inline double between(Random& random, double low, double high) { return low + (high - low) * random.unit(); }
 
 // Points in [-1, 1], weights in [1/2, 2]. `clamped`: the ends stand degree + 1 times. Knots inside stand once
 // to `most` times.
 inline Spline random_spline(unsigned seed, Index degree, Index dimension, bool rational, bool clamped,
                             Index most) {
-  std::mt19937& engine = seeded(seed);
-  std::uniform_real_distribution<double> unit(-1, 1), step(0.2, 1.5), weight(0.5, 2);
-  std::uniform_int_distribution<Index> times(1, most);
+  Random random(seed);
   Spline spline{degree, dimension, false, false, {}, {}};
-  double t = unit(engine);
-  const auto next = [&] { return t += step(engine); };
+  double t = random.centred();
+  const auto next = [&] { return t += between(random, 0.2, 1.5); };
   if (clamped)
     spline.knots.assign(degree + 1, t);
   else
     for (Index k = 0; k <= degree; ++k) spline.knots.push_back(next());
   for (int distinct = 0; distinct < 5; ++distinct)
-    spline.knots.insert(spline.knots.end(), times(engine), next());
+    spline.knots.insert(spline.knots.end(), 1 + random.below(most), next());
   next();
   for (Index k = 0; k <= degree; ++k) spline.knots.push_back(clamped ? t : next());
   const Count count = spline.knots.size() - degree - 1;
-  for (Count k = 0; k < count * dimension; ++k) spline.points.push_back(unit(engine));
+  for (Count k = 0; k < count * dimension; ++k) spline.points.push_back(random.centred());
   if (!rational) return spline;
   std::vector<double> weights;
-  for (Count k = 0; k < count; ++k) weights.push_back(weight(engine));
+  for (Count k = 0; k < count; ++k) weights.push_back(between(random, 0.5, 2));
   spline.points = homogeneous(spline.points, dimension, weights);
   spline.rational = true;
   ++spline.width;

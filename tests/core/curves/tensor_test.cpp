@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <random>
 
 #include "core/curves/subdivision.h"
+#include "tests/shapes/random.h"
 
 namespace subdivd::testing {
 namespace {
@@ -35,10 +35,9 @@ Index fewest(Kind kind) {
 }
 
 ControlPatch random_patch(Kind u, Index u_count, Kind v, Index v_count, Index width = 3, unsigned seed = 1) {
-  std::mt19937 random(seed + 31 * u_count + v_count);
-  std::uniform_real_distribution<double> value(-1, 1);
+  shapes::Random random(seed + 31 * u_count + v_count);
   ControlPatch patch{"patch", u_count, v_count, u.degree, v.degree, u.wrap, v.wrap, width, {}};
-  for (Index k = 0; k < u_count * v_count * width; ++k) patch.points.push_back(value(random));
+  for (Index k = 0; k < u_count * v_count * width; ++k) patch.points.push_back(random.centred());
   return patch;
 }
 
