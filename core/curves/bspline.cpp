@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "core/curves/bezier.h"
 #include "core/curves/precision.h"
@@ -184,6 +185,35 @@ void blossom_weights(std::span<const double> knots, Index degree, Count span,
 
 // --- Many parameters --------------------------------------------------------------------------------------
 
+// The arrays by their addresses: the compiler cannot know that the points that are written are not among
+// them.
+struct SplineEvaluator::Search {
+  const double* breaks;
+  const Index* first_in_cell;
+  double cells_per_unit;
+
+  explicit Search(const SplineEvaluator& of)
+      : breaks(of.breaks_.data()),
+        first_in_cell(of.first_in_cell_.data()),
+        cells_per_unit(of.cells_per_unit_) {}
+
+  // By way of a signed number: processors have no instruction for the other.
+  Count cell_of(double t) const {
+    return static_cast<Count>(static_cast<std::int64_t>((t - breaks[0]) * cells_per_unit));
+  }
+  // The number, among the spans that are not empty, of the one that holds t. `kFew`: no cell holds more than
+  // two breaks; then without a jump, for whether t lies before a break or behind it is a coin toss.
+  template <bool kFew>
+  [[gnu::always_inline]] Count span_of(double t) const {
+    const Count cell = cell_of(t), low = first_in_cell[cell], high = first_in_cell[cell + 1];
+    if constexpr (kFew) {
+      const Count next = low + static_cast<Count>((low < high) & (breaks[low + 1] <= t));
+      return next + static_cast<Count>((next < high) & (breaks[next + 1] <= t));
+    }
+    return static_cast<Count>(std::upper_bound(breaks + low + 1, breaks + high + 1, t) - breaks) - 1;
+  }
+};
+
 SplineEvaluator::SplineEvaluator(const Spline& spline)
     : degree_(spline.degree),
       width_(spline.width),
@@ -213,9 +243,9 @@ void SplineEvaluator::divide_domain(Count cells) {
   most_in_cell_ = 0;
   Index span = 0;
   const auto last = static_cast<Index>(spans_.size() - 1);
+  const Search search(*this);
   for (Count cell = 0; cell < first_in_cell_.size(); ++cell) {
-    while (span < last && static_cast<Count>((breaks_[span + 1] - breaks_[0]) * cells_per_unit_) < cell)
-      ++span;
+    while (span < last && search.cell_of(breaks_[span + 1]) < cell) ++span;
     first_in_cell_[cell] = span;
     if (cell > 0) most_in_cell_ = std::max(most_in_cell_, span - first_in_cell_[cell - 1]);
   }
@@ -236,26 +266,15 @@ void SplineEvaluator::set_cubics(const Spline& spline) {
   }
 }
 
-Count SplineEvaluator::span_of(double t) const {
-  const auto cell = static_cast<Count>((t - breaks_[0]) * cells_per_unit_);
-  const Count low = first_in_cell_[cell], high = first_in_cell_[cell + 1];
-  // Without a jump: whether t lies before a break or behind it is a coin toss.
-  if (most_in_cell_ <= 2) {
-    const Count next = low + static_cast<Count>((low < high) & (breaks_[low + 1] <= t));
-    return next + static_cast<Count>((next < high) & (breaks_[next + 1] <= t));
-  }
-  const auto first = breaks_.begin() + static_cast<std::ptrdiff_t>(low) + 1;
-  const auto last = breaks_.begin() + static_cast<std::ptrdiff_t>(high) + 1;
-  return static_cast<Count>(std::upper_bound(first, last, t) - breaks_.begin()) - 1;
-}
-
-template <Index kWidth>
+template <Index kWidth, bool kFew>
 void SplineEvaluator::evaluate_cubic(std::span<const double> ts, std::span<double> points) const {
+  const Search search(*this);
+  const double *cubics = cubics_.data(), *inverse_lengths = inverse_lengths_.data();
   double* out = points.data();
   for (const double t : ts) {
-    const Count span = span_of(t);
-    const double u = (t - breaks_[span]) * inverse_lengths_[span];
-    const double* c = cubics_.data() + span * (4 * kWidth);
+    const Count span = search.span_of<kFew>(t);
+    const double u = (t - search.breaks[span]) * inverse_lengths[span];
+    const double* c = cubics + span * (4 * kWidth);
     for (Index k = 0; k < kWidth; ++k, c += 4) *out++ = c[0] + u * (c[1] + u * (c[2] + u * c[3]));
   }
 }
@@ -265,8 +284,9 @@ void SplineEvaluator::evaluate_any(std::span<const double> ts, std::span<double>
   const std::span<double> values = std::span(basis).first(degree_ + 1);
   std::vector<double> stored(width_);
   double* out = points.data();
+  const Search search(*this);
   for (const double t : ts) {
-    const Count span = spans_[span_of(t)];
+    const Count span = spans_[search.span_of<false>(t)];
     basis_functions(knots_, degree_, span, t, values);
     std::ranges::fill(stored, 0.0);
     const double* control = points_.data() + (span - degree_) * width_;
@@ -279,8 +299,11 @@ void SplineEvaluator::evaluate_any(std::span<const double> ts, std::span<double>
 
 void SplineEvaluator::evaluate(std::span<const double> ts, std::span<double> points) const {
   assert(points.size() == ts.size() * dimension_);
-  if (!cubics_.empty() && width_ == 3) return evaluate_cubic<3>(ts, points);
-  if (!cubics_.empty() && width_ == 2) return evaluate_cubic<2>(ts, points);
+  const bool few = most_in_cell_ <= 2;
+  if (!cubics_.empty() && width_ == 3)
+    return few ? evaluate_cubic<3, true>(ts, points) : evaluate_cubic<3, false>(ts, points);
+  if (!cubics_.empty() && width_ == 2)
+    return few ? evaluate_cubic<2, true>(ts, points) : evaluate_cubic<2, false>(ts, points);
   evaluate_any(ts, points);
 }
 

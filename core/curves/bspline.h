@@ -53,9 +53,8 @@ class SplineEvaluator {
  private:
   void divide_domain(Count cells);
   void set_cubics(const Spline& spline);
-  // The number, among the spans that are not empty, of the one that holds t.
-  Count span_of(double t) const;
-  template <Index kWidth>
+  struct Search;
+  template <Index kWidth, bool kFew>
   void evaluate_cubic(std::span<const double> ts, std::span<double> points) const;
   void evaluate_any(std::span<const double> ts, std::span<double> points) const;
 
