@@ -34,7 +34,8 @@ std::vector<BezierPiece> bezier_pieces(const Spline& spline) {
     if (begin < spline.begin() || end > spline.end() || !(begin < end)) continue;
     // Both ends stand p times at least: the points of the span are those of the piece.
     const auto first = refined->points.begin() + static_cast<std::ptrdiff_t>((k - p) * spline.width);
-    pieces.push_back({begin, end, {first, first + static_cast<std::ptrdiff_t>((p + 1) * spline.width)}});
+    pieces.push_back(
+        {begin, end, {first, first + static_cast<std::ptrdiff_t>((Count{p} + 1) * spline.width)}});
   }
   return pieces;
 }

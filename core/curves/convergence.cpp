@@ -26,10 +26,11 @@ constexpr Count kStepsPerPoll = 256;  // pieces
 double blossom_of_unit(int degree, int unit, int halves) {
   std::vector<double> d(static_cast<std::size_t>(degree) + 1, 0);
   d[static_cast<std::size_t>(unit)] = 1;
+  const int before = degree / 2;
   for (int r = 1; r <= degree; ++r) {
     const double argument = r <= halves ? 0.5 : 0;
     for (int i = degree; i >= r; --i) {
-      const double begin = i - degree / 2 - (degree + 1) / 2.0;
+      const double begin = i - before - (degree + 1) / 2.0;
       const double a = (argument - begin) / (degree + 1 - r);
       const auto at = static_cast<std::size_t>(i);
       d[at] = (1 - a) * d[at - 1] + a * d[at];

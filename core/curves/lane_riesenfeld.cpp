@@ -141,12 +141,17 @@ class Cardinal {
   static constexpr int kMiddle = static_cast<int>(kMaxCurveDegree) + 4;
   using Row = std::array<std::int64_t, 2 * std::size_t{kMiddle} + 1>;
 
-  static std::int64_t& at(Row& row, int twice) { return row[static_cast<std::size_t>(kMiddle + twice)]; }
-  static std::int64_t at(const Row& row, int twice) { return row[static_cast<std::size_t>(kMiddle + twice)]; }
+  static std::size_t place_of(int twice) {
+    const int place = kMiddle + twice;
+    return static_cast<std::size_t>(place);
+  }
+  static std::int64_t& at(Row& row, int twice) { return row[place_of(twice)]; }
+  static std::int64_t at(const Row& row, int twice) { return row[place_of(twice)]; }
   // In lowest terms both are below 2^53, so that this is the double next to the true quotient.
   static double quotient(std::int64_t above, std::int64_t below) {
     const std::int64_t common = std::gcd(above, below);
-    return static_cast<double>(above / common) / static_cast<double>(below / common);
+    const std::int64_t reduced_above = above / common, reduced_below = below / common;
+    return static_cast<double>(reduced_above) / static_cast<double>(reduced_below);
   }
   void raise_to(int p) {
     lower_ = scaled_;
