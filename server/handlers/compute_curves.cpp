@@ -37,6 +37,14 @@ Error at_member(Error error, const char* member, std::optional<std::uint64_t> in
 
 // --- Sizes ------------------------------------------------------------------------------------------------
 
+// Points that come out for one that goes in, at most: segments of Catmull-Rom and Hermite curves become
+// Bezier pieces, spans become pieces, and at degree d a span has d points of its own.
+Count growth(CurveBasis basis, const CurveTask& task) {
+  const bool drawn = basis == CurveBasis::catmull_rom || basis == CurveBasis::hermite;
+  const Count pieces = task.to == CurveForm::nurbs ? 1 : 4;
+  return (drawn ? 3 : 1) * std::max<Count>(pieces, task.to_degree.value_or(0) + (task.to_degree ? 1 : 0));
+}
+
 Count numbers_of(const CurveRequest& request) {
   const CurveTask& task = request.task;
   Count numbers = 0;
@@ -52,13 +60,11 @@ Count numbers_of(const CurveRequest& request) {
                    count * (task.closest_to.size() + 3 * count) +
                    (task.flatten ? count * std::min(kMostPolylinePoints, Count{1} << 16) * width : 0);
         break;
-      default: {
-        // Elevation stands every knot once more; a piece of its own for every span at worst.
-        const Count degree = std::max<Count>(task.to_degree.value_or(0), kMaxCurveDegree);
-        const Count factor = task.kind == CurveTaskKind::convert ? degree + 1 : 1;
-        numbers += (points * factor + count * (task.insert.size() + 2 * Count{kMaxDegree})) * width;
+      default:
+        numbers +=
+            (points * growth(curves.basis, task) + count * (task.insert.size() + 2 * Count{kMaxDegree})) *
+            width;
         break;
-      }
     }
   }
   return numbers;
@@ -224,8 +230,8 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
 
 Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, const Budget& budget) {
   std::vector<CurveMeasure> all;
-  const auto done =
-      for_each_spline(request, budget, [&](Spline spline, std::size_t set, Count curve) -> Result<void> {
+  const auto done = for_each_spline(
+      request, budget, [&](const Spline& spline, std::size_t set, Count curve) -> Result<void> {
         auto one = measured(spline, request.curves.curves[set], curve, request.task, budget);
         if (!one) return std::move(one).error();
         all.push_back(*std::move(one));

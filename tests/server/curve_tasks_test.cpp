@@ -201,6 +201,15 @@ TEST(CurveTasks, stop_when_nobody_waits_and_refuse_what_is_too_large) {
   EXPECT_EQ(ask(Kind::evaluate, with(circle(), {{"samples", {{"ts", {0}}}}}), budget)["code"], "cancelled");
   const auto request = proto::decode_curves(circle().dump(), Kind::convert, {}, {});
   EXPECT_EQ(predict_curve_task(*request, 100).error().code, ErrorCode::too_large);
+  // What is predicted is not less than what comes, whatever becomes of the curve.
+  for (const json& members : {json{{"to", "nurbs"}}, json{{"to", "bezier"}}, json{{"toDegree", 20}}})
+    for (json curve : {cubic(), with(cubic(), {{"basis", "catmullRom"}, {"wrap", "periodic"}})}) {
+      if (members.contains("toDegree") && curve.contains("basis")) continue;
+      const json body = with(std::move(curve), members);
+      const auto decoded = proto::decode_curves(body.dump(), Kind::convert, {}, {});
+      ASSERT_TRUE(decoded);
+      EXPECT_GE(*predict_curve_task(*decoded, Count{1} << 30), ask(Kind::convert, body).dump().size());
+    }
 }
 
 }  // namespace
