@@ -10,9 +10,14 @@
 #include "core/curves/bspline.h"
 #include "core/curves/edit.h"
 #include "core/curves/knot_insertion.h"
+#include "core/curves/precision.h"
 
 namespace subdivd {
 namespace {
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
 
 Error fault(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where), 0, 0};
@@ -192,8 +197,9 @@ Result<void> check_piecewise(const ControlCurves& curves) {
   return curves.basis == CurveBasis::nurbs ? check_on_knots(curves) : Result<void>();
 }
 
-Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place) {
-  assert(curve < curves.curve_count());
+namespace {
+
+Result<Spline> made_of(const ControlCurves& curves, Count curve, CurvePlace place) {
   const std::span<const double> points = points_at(curves, curve, place.points);
   switch (curves.basis) {
     case CurveBasis::bspline:
@@ -219,6 +225,16 @@ Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace pl
   const double from = curves.ranges[2 * curve], to = curves.ranges[2 * curve + 1];
   if (from == spline.begin() && to == spline.end()) return spline;
   return part(spline, from, to);
+}
+
+}  // namespace
+
+Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place) {
+  assert(curve < curves.curve_count());
+  auto spline = made_of(curves, curve, place);
+  // Phantom points and tangents are up to three times as large as what was given.
+  if (spline && !all_finite(spline->points)) return does_not_fit();
+  return spline;
 }
 
 namespace {

@@ -156,16 +156,16 @@ std::vector<double> weights(const Spline& spline) {
 double extent(const Spline& spline) {
   const std::vector<double> points = projected(spline);
   const Index dimension = spline.dimension();
-  double square = 0;
+  double diagonal = 0;  // by hypot: squares overflow long before it does
   for (Index k = 0; k < dimension; ++k) {
     double low = points[k], high = points[k];
     for (Count i = k; i < points.size(); i += dimension) {
       low = std::min(low, points[i]);
       high = std::max(high, points[i]);
     }
-    square += (high - low) * (high - low);
+    diagonal = std::hypot(diagonal, high - low);
   }
-  return std::sqrt(square);
+  return diagonal;
 }
 
 }  // namespace subdivd

@@ -560,8 +560,8 @@ Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& opt
   const Count arrays = 1 + (options.limit ? 1 : 0) + (options.tangents ? 1 : 0);
   // At most 2^32 points of 2^12 scalars in three arrays: 2^49 bytes, no overflow.
   Count bytes = *points * curves.width * sizeof(Real) * arrays + curves.curve_count() * sizeof(Index);
-  // Knots and weights, and the curve in doubles before it is converted.
-  if (!is_subdivided(curves.basis)) bytes += *points * (curves.width * arrays + 3) * sizeof(double);
+  // Knots and weights, the curve in doubles before it is converted, and its pieces.
+  if (!is_subdivided(curves.basis)) bytes += *points * (curves.width * (arrays + 2) + 12) * sizeof(double);
   return bytes;
 }
 

@@ -120,7 +120,11 @@ class CurveTaskReader {
     task().to = static_cast<CurveForm>(word);
     return true;
   }
-  bool to_degree(Value value) { return read_count(value, kMaxDegree, task().to_degree.emplace()); }
+  bool to_degree(Value value) {
+    Index& degree = task().to_degree.emplace();
+    if (!read_count(value, kMaxDegree, degree)) return false;
+    return degree >= 1 || cursor_.fail(ErrorCode::out_of_range, "the degree of a curve is 1 at least");
+  }
   bool range(Value value) { return read_pair(value, task().range.emplace()); }
   bool domain(Value value) { return read_pair(value, task().domain.emplace()); }
   bool reversed(Value value) { return read_truth(value, task().reversed); }

@@ -105,12 +105,9 @@ class AnswerWriter {
     if (curves.basis == CurveBasis::nurbs) {
       text_.key("order");
       text_.indices(curves.orders, 1, ArrayForm::flat);
-      text_.key("knots");
-      (void)text_.tuples(std::span<const double>(curves.knots), 1, ArrayForm::flat);
-      if (!curves.weights.empty()) {
-        text_.key("pointWeights");
-        (void)text_.tuples(std::span<const double>(curves.weights), 1, ArrayForm::flat);
-      }
+      array(std::span<const double>(curves.knots), "knots", 1, ArrayForm::flat, i, "curves");
+      if (!curves.weights.empty())
+        array(std::span<const double>(curves.weights), "pointWeights", 1, ArrayForm::flat, i, "curves");
     }
     if (!curves.tangents.empty())
       array(std::exchange(curves.tangents, {}), "tangents", curves.width, form, i, "curves");
@@ -162,11 +159,12 @@ class AnswerWriter {
     text_.string(value);
   }
 
-  void array(std::span<const Real> values, const char* name, std::size_t width, ArrayForm form,
-             std::size_t number, const char* of = "meshes") {
+  template <class Values>
+  void array(const Values& values, const char* name, std::size_t width, ArrayForm form, std::size_t number,
+             const char* of = "meshes") {
     if (error_) return;
     text_.key(name);
-    const std::size_t place = text_.tuples(values, width, form);
+    const std::size_t place = text_.tuples(std::span(values), width, form);
     if (place == TextWriter::kAllFinite) return;
     error_ = Error{ErrorCode::not_finite,
                    std::string("number ") + std::to_string(place) + " of the refined " + name +

@@ -25,8 +25,11 @@ using proto::CurveTask;
 using proto::CurveTaskKind;
 using proto::EditedCurves;
 
-constexpr Count kMostPolylinePoints = Count{1} << 20;
 constexpr double kLengthTolerance = 1e-9;
+
+// What one curve may take: a smooth one far less, one of many spans in proportion.
+Count most_polyline_points(Count points) { return std::max(Count{1} << 16, 64 * points); }
+Count most_length_pieces(Count points) { return std::max(LengthOptions{}.max_pieces, 16 * points); }
 
 // An error about something beside the curves: its place is a member of the body.
 Error at_member(Error error, const char* member, std::optional<std::uint64_t> index = {}) {
@@ -53,12 +56,16 @@ Count numbers_of(const CurveRequest& request) {
     const Count width = curves.width + 2;  // weight and knot
     switch (task.kind) {
       case CurveTaskKind::evaluate:
-        numbers = std::max(numbers, task.sample_ts.size() * ((Count{task.derivatives} + 1) * width + 12));
+        numbers = std::max(
+            numbers, task.sample_ts.size() *
+                         ((Count{task.frames ? 4u : task.derivatives} + task.derivatives + 1) * width + 12));
         break;
       case CurveTaskKind::measure:
-        numbers += count * (Count{task.equal_lengths.value_or(0)} + 4 * width) +
-                   count * (task.closest_to.size() + 3 * count) +
-                   (task.flatten ? count * std::min(kMostPolylinePoints, Count{1} << 16) * width : 0);
+        numbers += count * (Count{task.equal_lengths.value_or(0)} + Count{task.convergence.value_or(0)} * 2 +
+                            4 * width + task.closest_to.size() * 3);
+        if (task.flatten)
+          for (Count c = 0; c < count; ++c)
+            numbers += most_polyline_points(curves.points_of_curve(c)) * width;
         break;
       default:
         numbers +=
@@ -141,8 +148,7 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
   const std::vector<Located> all = all_curves(request);
   CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
   const Index order = task.frames ? std::max<Index>(task.derivatives, 3) : task.derivatives;
-  std::optional<Spline> spline;
-  Index known = kNoIndex;
+  std::vector<std::optional<Spline>> splines(all.size());  // of the curves that have been asked for
   constexpr std::size_t kSamplesPerPoll = 256;
   for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
     if (k % kSamplesPerPoll == 0)
@@ -155,12 +161,12 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
           {"samples", "curves", std::uint64_t{k}},
           0,
           0};
-    if (number != known) {
+    std::optional<Spline>& spline = splines[number];
+    if (!spline) {
       auto made = spline_of(request.curves.curves[all[number].set], all[number].curve, all[number].place);
       if (!made)
         return proto::blame_input(request.curves, std::move(made).error(), "curves", all[number].set);
       spline = *std::move(made);
-      known = number;
     }
     std::vector<double> rows((Count{order} + 1) * spline->dimension());
     if (auto done = derivatives(*spline, task.sample_ts[k], order, rows); !done) {
@@ -201,7 +207,10 @@ Result<void> measure_closest(const Spline& spline, const CurveTask& task, const 
 Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve,
                               const CurveTask& task, const Budget& budget) {
   CurveMeasure measure;
-  auto length = arc_length(spline, {.tolerance = task.tolerance.value_or(kLengthTolerance)}, budget);
+  auto length = arc_length(spline,
+                           {.tolerance = task.tolerance.value_or(kLengthTolerance),
+                            .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
+                           budget);
   if (!length) return at_member(std::move(length).error(), "tolerance");
   measure.length = *length;
   auto box = bounds(spline, budget);
@@ -209,12 +218,18 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
   measure.box = *std::move(box);
   if (auto done = measure_closest(spline, task, budget, measure); !done) return std::move(done).error();
   if (task.flatten) {
-    auto polyline = flatten(spline, {.tolerance = *task.flatten, .max_points = kMostPolylinePoints}, budget);
+    auto polyline = flatten(
+        spline,
+        {.tolerance = *task.flatten, .max_points = most_polyline_points(curves.points_of_curve(curve))},
+        budget);
     if (!polyline) return at_member(std::move(polyline).error(), "flatten");
     measure.polyline = *std::move(polyline);
   }
   if (task.equal_lengths) {
-    auto parameters = equal_parameters(spline, *task.equal_lengths, kPositionOptions, budget);
+    auto parameters = equal_parameters(spline, *task.equal_lengths,
+                                       {.tolerance = kPositionOptions.tolerance,
+                                        .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
+                                       budget);
     if (!parameters) return at_member(std::move(parameters).error(), "equalLengths");
     measure.equal_parameters = *std::move(parameters);
   }

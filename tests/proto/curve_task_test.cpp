@@ -78,6 +78,7 @@ TEST(CurveTask, points_at_what_is_wrong) {
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0]},"frames":1)")), "wrong_type /frames");
   EXPECT_EQ(refused(Kind::convert, body(kLine, R"("to":"spline")")), "bad_enum /to");
   EXPECT_EQ(refused(Kind::convert, body(kLine, R"("toDegree":64)")), "out_of_range /toDegree");
+  EXPECT_EQ(refused(Kind::convert, body(kLine, R"("toDegree":0)")), "out_of_range /toDegree");
   EXPECT_EQ(refused(Kind::convert, body(kLine, R"("range":[0])")), "wrong_length /range");
   EXPECT_EQ(refused(Kind::convert, body(kLine, R"("domain":[0,1,2])")), "wrong_length /domain");
   EXPECT_EQ(refused(Kind::measure, body(kLine, R"("closestTo":[1,2,3])")), "wrong_type /closestTo");

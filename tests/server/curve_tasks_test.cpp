@@ -183,6 +183,35 @@ TEST(CurveTasks, measure_how_fast_the_polygon_comes) {
   EXPECT_EQ(ask(Kind::measure, with(circle(), {{"convergence", 5}}))["where"], json({"convergence"}));
 }
 
+// Phantom points beyond the ends, weights times points: what outgrows a double is refused, not written.
+TEST(CurveTasks, numbers_that_outgrow_a_double_are_refused) {
+  json huge = cubic();
+  for (json& point : huge["points"])
+    for (json& x : point) x = x.get<double>() * 4e307;
+  json heavy = circle();
+  for (json& weight : heavy["pointWeights"]) weight = weight.get<double>() * 1e308;
+  for (json& point : heavy["points"])
+    for (json& x : point) x = x.get<double>() * 1e3;
+  for (const json& curve : {huge, heavy})
+    for (const auto& [kind, members] : {std::pair{Kind::convert, json::object()},
+                                        {Kind::insert_knot, json{{"insert", {1.5}}}},
+                                        {Kind::remove_knot, json{{"tolerance", 1}}},
+                                        {Kind::evaluate, json{{"samples", {{"ts", {1}}}}, {"frames", true}}},
+                                        {Kind::measure, json::object()}}) {
+      const json answer = ask(kind, with(curve, members));
+      EXPECT_TRUE(answer["code"] == "out_of_range" || answer["code"] == "not_finite") << answer;
+    }
+}
+
+TEST(CurveTasks, large_coordinates_are_no_trouble) {
+  json large = cubic();
+  for (json& point : large["points"])
+    for (json& x : point) x = x.get<double>() * 1e200;
+  EXPECT_TRUE(ask(Kind::measure, with(large, {{"flatten", 1e195}})).contains("measures"));
+  // The tolerance goes by the extent, which must not overflow: a bent curve is no line.
+  EXPECT_EQ(ask(Kind::convert, with(large, {{"toDegree", 1}}))["where"], json({"toDegree"}));
+}
+
 TEST(CurveTasks, answers_are_requests) {
   for (const Kind kind : {Kind::insert_knot, Kind::remove_knot, Kind::convert}) {
     json answer = ask(kind, kind == Kind::insert_knot ? with(circle(), {{"insert", {0.5}}}) : circle());
