@@ -1,11 +1,13 @@
 #include "core/curves/bases.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 
 #include "core/curves/bezier.h"
 #include "core/curves/degree.h"
+#include "core/curves/edit.h"
 
 namespace subdivd {
 namespace {
@@ -125,6 +127,21 @@ std::vector<double> tangent_at(Points a, Points b, Points c, Spacing spacing, bo
 
 }  // namespace
 
+namespace {
+
+// Of a curve that begins at `first` and ends at `last` but for rounding: with knots so that it does to the
+// bit.
+Spline pinned_at(Points first, Points last, const Spline& spline) {
+  const Result<Spline> whole = part(spline, spline.begin(), spline.end());
+  assert(whole.ok());
+  Spline pinned = *whole;
+  std::ranges::copy(first, pinned.points.begin());
+  std::ranges::copy(last, pinned.points.end() - static_cast<std::ptrdiff_t>(last.size()));
+  return pinned;
+}
+
+}  // namespace
+
 Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degree) {
   const Row row(points, width);
   const Index m = degree / 2, p = degree;
@@ -143,12 +160,17 @@ Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degre
     case CurveWrap::pinned:
       break;
   }
+  const Points first = points.first(width), last = points.last(width);
   if (odd)
-    return uniform(p, width, false, before, n + 2 * Count{m}, -static_cast<double>(m) - half_support,
-                   [&](std::int64_t i, Index k) { return row.mirrored(i, k); });
+    return pinned_at(
+        first, last,
+        uniform(p, width, false, before, n + 2 * Count{m}, -static_cast<double>(m) - half_support,
+                [&](std::int64_t i, Index k) { return row.mirrored(i, k); }));
   // d_j is centred on j + 1/2; the border is 0.
-  return uniform(p, width, false, before, n - 2 + 2 * Count{m}, -static_cast<double>(m) + 0.5 - half_support,
-                 [&](std::int64_t j, Index k) { return row.mirrored_beside(j, k); });
+  return pinned_at(
+      first, last,
+      uniform(p, width, false, before, n - 2 + 2 * Count{m}, -static_cast<double>(m) + 0.5 - half_support,
+              [&](std::int64_t j, Index k) { return row.mirrored_beside(j, k); }));
 }
 
 Spline spline_of_bezier(Points points, Index width, CurveWrap wrap) {

@@ -23,7 +23,8 @@ namespace subdivd {
 //
 // Uniform B-splines: the domain is that of core/curves/control_curve.h. Pinned ones of odd degree have the
 // phantom points 2 c_0 - c_k, of even degree c_0 stands on the border: there d_{-1-k} = 2 c_0 - d_k, where
-// d_j = c_{j+1}.
+// d_j = c_{j+1}; their ends stand degree + 1 times among the knots, so that the curve starts and ends at its
+// first and last point to the bit.
 Spline spline_of_bspline(std::span<const double> points, Index width, CurveWrap wrap, Index degree);
 Spline spline_of_bezier(std::span<const double> points, Index width, CurveWrap wrap);
 // Pinned: phantom points 2 c_0 - c_1 before the first and behind the last. Points that coincide have no

@@ -85,14 +85,4 @@ template <class Real>
 Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptions& options,
                                    const Budget& budget);
 
-// Of cubic B-splines (basis bspline, degree 3) only: point and first derivative (per unit of t) of curve
-// `curve` at parameter t, by the at most four basis functions that do not vanish there. Domain: pinned [0,
-// N-1], periodic any t (period N), nonperiodic [1, N-2]; t counts control points, so t = i is the limit of
-// c_i. `point` and `derivative` hold width scalars; derivative may be empty. Refuses a curve that does not
-// exist, t outside the domain or not finite (out_of_range, not_finite), and results that Real cannot hold.
-// `curves` must have passed check().
-template <class Real>
-Result<void> evaluate(const ControlCurves& curves, Index curve, double t, std::span<Real> point,
-                      std::span<Real> derivative);
-
 }  // namespace subdivd

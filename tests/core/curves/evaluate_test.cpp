@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/curves/bspline.h"
+#include "core/curves/piecewise.h"
 #include "core/curves/subdivision.h"
 #include "tests/core/curves/knot_reference.h"
 #include "tests/core/curves/sample_curves.h"
@@ -15,15 +17,16 @@ struct Sample {
 };
 
 Sample at(const ControlCurves& curves, double t, Index curve = 0) {
-  Sample sample{std::vector<double>(curves.width), std::vector<double>(curves.width)};
-  const auto done = evaluate<double>(curves, curve, t, sample.point, sample.derivative);
-  EXPECT_TRUE(done.ok()) << t;
-  return sample;
+  const Spline spline = *spline_of(curves, curve, curve_places(curves)[curve]);
+  std::vector<double> rows(2 * std::size_t{curves.width});
+  EXPECT_TRUE(derivatives(spline, t, 1, rows).ok()) << t;
+  const auto middle = rows.begin() + curves.width;
+  return {{rows.begin(), middle}, {middle, rows.end()}};
 }
 
-ErrorCode refusal(const ControlCurves& curves, double t, Index curve = 0) {
-  Sample sample{std::vector<double>(curves.width), {}};
-  const auto done = evaluate<double>(curves, curve, t, sample.point, {});
+ErrorCode refusal(const ControlCurves& curves, double t) {
+  std::vector<double> point(curves.width);
+  const auto done = evaluate(*spline_of(curves, 0, {}), t, point);
   return done ? ErrorCode::internal : done.error().code;
 }
 
@@ -132,20 +135,6 @@ TEST(Evaluate, refuses_parameters_that_are_not_finite) {
   for (const CurveWrap wrap : kAllWraps)
     for (const double t : {std::nan(""), std::numeric_limits<double>::infinity()})
       EXPECT_EQ(refusal(random_curve(wrap, 5), t), ErrorCode::not_finite);
-}
-
-TEST(Evaluate, refuses_a_curve_that_does_not_exist) {
-  EXPECT_EQ(refusal(random_curve(CurveWrap::pinned, 5), 0, 1), ErrorCode::out_of_range);
-}
-
-TEST(Evaluate, refuses_a_point_that_single_precision_cannot_hold) {
-  ControlCurves curves;
-  curves.width = 1;
-  curves.points = {0, 1e39};
-  float point = 0;
-  const auto done = evaluate<float>(curves, 0, 1, {&point, 1}, {});
-  ASSERT_FALSE(done.ok());
-  EXPECT_EQ(done.error().code, ErrorCode::out_of_range);
 }
 
 }  // namespace
