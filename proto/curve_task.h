@@ -16,6 +16,7 @@
 #include "core/curves/convergence.h"
 #include "core/curves/differential.h"
 #include "core/curves/flatten.h"
+#include "core/curves/tensor.h"
 #include "proto/decode.h"
 #include "proto/wire.h"
 
@@ -32,6 +33,10 @@ struct CurveTask {
   // evaluate: parameter k on curve number sample_curves[k], counted over all curves of the body
   std::vector<Index> sample_curves;
   std::vector<double> sample_ts;
+  // evaluate: or parameters (us[k], vs[k]) on surface number sample_surfaces[k]
+  bool on_surfaces = false;
+  std::vector<Index> sample_surfaces;
+  std::vector<double> sample_us, sample_vs;
   Index derivatives = 0;  // orders 1 to this
   bool frames = false;
   std::vector<double> insert;                 // insert_knot
@@ -54,7 +59,7 @@ inline constexpr Index kMostDerivatives = 32;
 inline constexpr Index kMostEqualLengths = 1'000'000;
 
 struct CurveRequest {
-  RefineRequest curves;  // no meshes
+  RefineRequest curves;  // no meshes; surfaces where a task takes them
   CurveTask task;
 };
 
@@ -62,7 +67,7 @@ struct CurveRequest {
 Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
                                    const Limits& limits);
 
-// What evaluate found at every sample.
+// What evaluate found at every sample on curves.
 struct CurveSamples {
   std::vector<Index> curves;
   std::vector<double> ts;
@@ -74,10 +79,16 @@ struct CurveSamples {
   std::vector<std::optional<double>> curvatures, torsions;
 };
 
-// What measure found about one curve.
+// What evaluate found at every sample on surfaces. Derivatives of order 1 are du, dv, of order 2 duu, duv,
+// dvv.
+struct SurfaceSamples {
+  std::vector<PatchSample<double>> samples;
+};
+
+// What measure found about one curve. Of a subdivided curve without a formula a polyline alone is known.
 struct CurveMeasure {
-  ArcLength length;
-  Box box;
+  std::optional<ArcLength> length;
+  std::optional<Box> box;
   std::vector<ClosestPoint> closest;
   std::optional<Polyline> polyline;
   std::optional<std::vector<double>> equal_parameters;
@@ -92,6 +103,7 @@ struct EditedCurves {
 };
 
 Payload encode_samples(const CurveRequest& request, const CurveSamples& samples);
+Payload encode_samples(const CurveRequest& request, const SurfaceSamples& samples);
 Payload encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures);
 Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited);
 

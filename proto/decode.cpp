@@ -31,7 +31,10 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
       if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits);
       request.error().message += "; this looks like glTF, whose content type is model/gltf+json";
     }
-    return request;
+    // A mesh has no type: the body is one curve or surface, with its members at the top.
+    if (!json::has_member(body, "type")) return request;
+    request = json::read_curve(body, limits);
+    if (!request) return request;
   }
   if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
   return request;
@@ -94,6 +97,12 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
     const Result<Count> size =
         predict_bytes<Real>(request.curves[i], curve_options(request, request.curves[i]));
     if (!size) return blame_input(request, size.error(), "curves", i);
+    bytes += *size;
+  }
+  for (std::size_t i = 0; i < request.surfaces.size(); ++i) {
+    const ControlPatch& surface = request.surfaces[i];
+    const Result<Count> size = predict_bytes<Real>(surface, patch_options(request, surface));
+    if (!size) return blame_input(request, size.error(), "surfaces", i);
     bytes += *size;
   }
   return bytes;

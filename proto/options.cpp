@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 3> kBoundary = {"none", "edgeOnly", "edge
 constexpr std::array<std::string_view, 6> kFaceVarying = {"none",         "cornersOnly", "cornersPlus1",
                                                           "cornersPlus2", "boundaries",  "all"};
 constexpr std::array<std::string_view, 2> kCreaseMethod = {"uniform", "chaikin"};
+constexpr std::array<std::string_view, 2> kFaces = {"triangles", "quads"};
 constexpr std::array<std::string_view, 2> kPrecision = {"single", "double"};
 constexpr std::array<std::string_view, 2> kWeld = {"exact", "none"};
 constexpr std::array<std::string_view, 3> kFormat = {"json", "glb", "gltf"};
@@ -30,6 +31,7 @@ static_assert(kLoopWeights.size() == static_cast<std::size_t>(LoopWeights::warre
 static_assert(kBoundary.size() == static_cast<std::size_t>(BoundaryInterpolation::edge_and_corner) + 1);
 static_assert(kFaceVarying.size() == static_cast<std::size_t>(FaceVaryingInterpolation::all) + 1);
 static_assert(kCreaseMethod.size() == static_cast<std::size_t>(CreaseMethod::chaikin) + 1);
+static_assert(kFaces.size() == static_cast<std::size_t>(Faces::quads) + 1);
 static_assert(kPrecision.size() == static_cast<std::size_t>(Precision::double_precision) + 1);
 static_assert(kWeld.size() == static_cast<std::size_t>(Weld::none) + 1);
 static_assert(kFormat.size() == static_cast<std::size_t>(Format::gltf) + 1);
@@ -81,11 +83,11 @@ constexpr auto kWord = OptionKind::word;
 
 // clang-format off
 constexpr std::array kTable = {
-  option<&Options::level>(kInteger, "level", {}, "2", "meshes, curves, glTF",
-    "How often to refine. Every level makes four triangles of one and doubles a curve's segments. The server may allow less than the maximum."),
-  option<&Options::limit>(kBoolean, "limit", {}, "false", "meshes, curves, glTF",
+  option<&Options::level>(kInteger, "level", {}, "2", "meshes, curves, surfaces, glTF",
+    "How often to refine. Every level makes four triangles (or quads) of one and doubles a curve's segments. The server may allow less than the maximum."),
+  option<&Options::limit>(kBoolean, "limit", {}, "false", "meshes, curves, surfaces, glTF",
     "Move every refined point, and every vertex and faceVarying value, to where refining for ever would lead."),
-  option<&Options::normals>(kBoolean, "normals", {}, "false", "meshes, curves, glTF",
+  option<&Options::normals>(kBoolean, "normals", {}, "false", "meshes, curves, surfaces, glTF",
     "Add unit normals of the limit surface, one per refined point; curves get tangents instead."),
   option<&Options::verify>(kBoolean, "verify", {}, "false", "meshes, curves, glTF",
     "Attach the report of the comparison with OpenSubdiv."),
@@ -99,11 +101,13 @@ constexpr std::array kTable = {
     "Which parts of the borders of faceVarying primvars stay linear; set here it overrides every mesh of the body. Default: the mesh's own, cornersPlus1 where it has none."),
   option<&Options::crease_method>(kWord, "creaseMethod", kCreaseMethod, "uniform", "meshes",
     "How the sharpness of semi-sharp creases decays from level to level."),
-  option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, glTF",
+  option<&Options::faces>(kWord, "faces", kFaces, "", "surfaces",
+    "What is drawn between the refined points of a B-spline surface. Default: quads in JSON answers, triangles in glTF answers, which know nothing else."),
+  option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, surfaces, glTF",
     "Floating-point type of the computation and of the numbers in a JSON answer. Default: double for JSON answers, single for glTF answers."),
   option<&Options::weld>(kWord, "weld", kWeld, "exact", "glTF",
     "exact: vertices of one glTF mesh with bit-identical positions are one point, so seams cannot crack; none: the indices alone decide."),
-  option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, glTF",
+  option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, surfaces, glTF",
     "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body."),
 };
 // clang-format on
@@ -294,6 +298,7 @@ std::string effective_options(const RefineRequest& request) {
   Options options = request.options;
   options.precision = answer_precision(request);
   options.format = answer_format(request);
+  if (!request.surfaces.empty()) options.faces = answer_faces(request);
   nlohmann::ordered_json echo = nlohmann::ordered_json::object();
   for (const OptionSpec& spec : kTable)
     if (const auto value = spec.get(options)) echo[std::string(spec.name)] = json_value(spec, *value);

@@ -116,17 +116,38 @@ Result<void> prepare_curves(RefineRequest& request, std::size_t i) {
   return blame_input(request, std::move(error), "curves", i);
 }
 
+// The core's places of a surface are the wire's.
+Result<void> prepare_surface(RefineRequest& request, std::size_t i) {
+  const ControlPatch& surface = request.surfaces[i];
+  Result<void> fine = surface.check();
+  if (fine && answer_precision(request) == Precision::single_precision)
+    fine = check_fits(surface.points, {"points"});
+  if (fine) return {};
+  Error error = std::move(fine).error();
+  if (error.where.size() == 2) {  // a number among the points
+    const std::uint64_t scalar = std::get<std::uint64_t>(error.where[1]);
+    if (request.surface_forms[i] == ArrayForm::nested)
+      error.where = {"points", scalar / surface.width, scalar % surface.width};
+  }
+  return blame_input(request, std::move(error), "surfaces", i);
+}
+
 }  // namespace
 
 Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i) {
-  const bool mesh = std::string_view(of) == "meshes";
+  const std::string_view kind = of;
   if (request.input != Format::json) {
+    // A glTF body holds no surfaces.
+    const bool mesh = kind == "meshes";
     const std::string& name = mesh ? request.meshes[i].name : request.curves[i].name;
     error.message = label(mesh ? "mesh" : "curve", i, name) + ": " + error.message;
     error.where.clear();
     return error;
   }
-  if (mesh ? request.single_mesh_at_top : request.single_curve_at_top) return error;
+  const bool at_top = kind == "meshes"   ? request.single_mesh_at_top
+                      : kind == "curves" ? request.single_curve_at_top
+                                         : request.single_surface_at_top;
+  if (at_top) return error;
   Path where = {of, std::uint64_t{i}};
   where.insert(where.end(), error.where.begin(), error.where.end());
   error.where = std::move(where);
@@ -138,6 +159,8 @@ Result<void> prepare(RefineRequest& request) {
     if (Result<void> fine = prepare_mesh(request, i); !fine) return fine;
   for (std::size_t i = 0; i < request.curves.size(); ++i)
     if (Result<void> fine = prepare_curves(request, i); !fine) return fine;
+  for (std::size_t i = 0; i < request.surfaces.size(); ++i)
+    if (Result<void> fine = prepare_surface(request, i); !fine) return fine;
   return {};
 }
 

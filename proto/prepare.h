@@ -10,13 +10,14 @@
 
 namespace subdivd::proto {
 
-// Triangulates (when the options say so), drops degenerate faces with a warning, checks every mesh and curve.
+// Triangulates (when the options say so), drops degenerate faces with a warning, checks every mesh, curve and
+// surface.
 // Fills face_origins.
 Result<void> prepare(RefineRequest& request);
 
-// `error` about mesh or curve number `i` (`of`: "meshes" or "curves") with its place in the body: for JSON
-// /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, whose accessors are no arrays of
-// numbers to point into, the message names the mesh.
+// `error` about mesh, curve or surface number `i` (`of`: "meshes", "curves" or "surfaces") with its place in
+// the body: for JSON /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, whose accessors are
+// no arrays of numbers to point into, the message names the mesh.
 Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i);
 
 }  // namespace subdivd::proto

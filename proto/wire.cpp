@@ -11,6 +11,11 @@ Precision answer_precision(const RefineRequest& request) {
   return request.options.precision.value_or(json ? Precision::double_precision : Precision::single_precision);
 }
 
+Faces answer_faces(const RefineRequest& request) {
+  if (answer_format(request) != Format::json) return Faces::triangles;
+  return request.options.faces.value_or(Faces::quads);
+}
+
 namespace {
 
 // A glTF answer indexes render meshes alone.
@@ -39,6 +44,15 @@ CurveOptions curve_options(const RefineRequest& request, const ControlCurves& cu
   const bool limit =
       options.limit || (answer_format(request) != Format::json && !is_subdivided(curves.basis));
   return {.level = options.level, .limit = limit, .tangents = options.normals};
+}
+
+PatchOptions patch_options(const RefineRequest& request, const ControlPatch& patch) {
+  const Options& options = request.options;
+  return {.level = options.level,
+          .limit = options.limit,
+          .tangents = false,
+          .normals = options.normals && patch.width == 3,
+          .faces = answer_faces(request) == Faces::quads ? PatchFaces::quads : PatchFaces::triangles};
 }
 
 Chunk Chunk::own(std::string text) {

@@ -13,6 +13,7 @@
 
 #include "core/base/index.h"
 #include "core/curves/subdivision.h"
+#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"
@@ -22,6 +23,7 @@ namespace subdivd::proto {
 
 enum class Format { json, glb, gltf };
 enum class Precision { single_precision, double_precision };  // "single", "double" on the wire
+enum class Faces { triangles, quads };                        // of B-spline surfaces
 enum class Weld {
   exact,  // glTF vertices of one mesh with bit-identical positions are one point for connectivity (-0 == +0)
   none,   // the input's indices are the connectivity
@@ -48,6 +50,7 @@ struct Options {
   Weld weld = Weld::exact;
   std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body
   std::optional<FaceVaryingInterpolation> face_varying_linear_interpolation;
+  std::optional<Faces> faces;          // default: quads; glTF answers have triangles always
   std::optional<Precision> precision;  // default: double for JSON answers, single for glTF answers
   std::optional<Format> format;        // default: the kind that came in
 };
@@ -71,14 +74,15 @@ struct RefineRequest {
   Options options;
   std::vector<ControlMesh> meshes;  // checked: check() has passed
   std::vector<ControlCurves> curves;
+  std::vector<ControlPatch> surfaces;
   // For every mesh the face of the input that each face came from, when faces were dropped or triangulated
   // (otherwise empty: they are the input's faces).
   std::vector<std::vector<Index>> face_origins;
   std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
   // JSON only
-  bool single_mesh_at_top = false, single_curve_at_top = false;
+  bool single_mesh_at_top = false, single_curve_at_top = false, single_surface_at_top = false;
   std::vector<JsonMeshForm> mesh_forms;
-  std::vector<ArrayForm> curve_forms;
+  std::vector<ArrayForm> curve_forms, surface_forms;
   // glTF only: meshes and curves of this request belong to source in the order it knows
   std::shared_ptr<const gltf::Source> source;
 };
@@ -92,6 +96,7 @@ template <class Real>
 struct RefineAnswer {
   std::vector<RefinedMesh<Real>> meshes;  // in the order of the request
   std::vector<RefinedCurves<Real>> curves;
+  std::vector<RefinedPatch<Real>> surfaces;
   std::optional<oracle::Report> verification;
   Timings timings;
 };
@@ -100,10 +105,12 @@ using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
 // Effective values of what Options leaves open.
 Format answer_format(const RefineRequest& request);
 Precision answer_precision(const RefineRequest& request);
+Faces answer_faces(const RefineRequest& request);
 
-// What the request asks of the core, for every mesh and every curve of it alike.
+// What the request asks of the core, for every mesh, curve and surface of it alike.
 RefineOptions mesh_options(const RefineRequest& request);
 CurveOptions curve_options(const RefineRequest& request, const ControlCurves& curves);
+PatchOptions patch_options(const RefineRequest& request, const ControlPatch& patch);
 
 // A piece of an answer's body: bytes and whatever keeps them alive.
 struct Chunk {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "core/curves/measurement.h"
 #include "core/curves/precision.h"
 
 namespace subdivd {
 namespace {
 
 constexpr int kLeastWeightExponent = -500;
-constexpr Count kPollInterval = 64;  // pieces between two looks at the budget
 // Halving evens out weights by one power of two at a time; 53 more reach the last bit of the coordinates.
 constexpr Index kMaxDepth = 640;
 
@@ -94,12 +94,12 @@ Result<double> highest(const Spline& local, std::span<const BezierPiece> pieces,
     std::push_heap(heap.begin(), heap.end());
   };
   for (const BezierPiece& piece : pieces) {
-    if (steps++ % kPollInterval == 0)
+    if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     consider(coordinate_of(piece, local, k, sign), 0);
   }
   while (!heap.empty() && heap.front().top > attained + tolerance && heap.front().depth < kMaxDepth) {
-    if (steps++ % kPollInterval == 0)
+    if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     std::pop_heap(heap.begin(), heap.end());
     const Slope slope = std::move(heap.back());

@@ -51,7 +51,7 @@ Spline window(const Spline& spline, Count span);
 inline constexpr double kRoundoff = 0x1p-53;
 
 // w_ij = binom(n, i) binom(n, j) / binom(2n, i + j), row by row, (n + 1)^2 of them: the Bernstein
-// coefficients of a product are  (fg)_k = sum_{i+j=k} w_ij f_i g_j.   [FaroukiRajan88, eq. 44]
+// coefficients of a product are  (fg)_k = sum_{i+j=k} w_ij f_i g_j.   [FaroukiRajan88]
 std::vector<double> product_weights(Index degree);
 
 }  // namespace subdivd

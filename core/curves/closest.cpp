@@ -7,12 +7,12 @@
 #include "core/curves/bezier.h"
 #include "core/curves/bounds.h"
 #include "core/curves/bspline.h"
+#include "core/curves/measurement.h"
 #include "core/curves/precision.h"
 
 namespace subdivd {
 namespace {
 
-constexpr Count kPollInterval = 64;  // pieces between two looks at the budget
 // Two distances that differ by less count as equal, in the unit of the larger of extent and distance. Far
 // above the rounding of a bound (4 p roundings), well below the 1e-12 that are promised.
 constexpr double kTie = 0x1p-43;
@@ -147,12 +147,12 @@ Result<Found> search(const Scene& scene, const Budget& budget) {
     std::push_heap(heap.begin(), heap.end());
   };
   for (BezierPiece& piece : bezier_pieces(scene.spline)) {
-    if (steps++ % kPollInterval == 0)
+    if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     consider(std::move(piece));
   }
   for (Count halved = 0; !heap.empty(); ++halved) {
-    if (steps++ % kPollInterval == 0)
+    if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     std::pop_heap(heap.begin(), heap.end());
     const Candidate candidate = std::move(heap.back());

@@ -13,7 +13,7 @@
 // parameter is 0 (r > 1/4) or infinite (r < 1/4). The tangent given is that piece per 2^-l, of the level at
 // hand: its *direction* is the curve's for r <= 1/3, while its length changes by 2 (1-2r) from a level to the
 // next. For r > 1/3 the point is a corner of the limit, and the direction is that of the edge it stands on.
-//   [GregoryQu96: C1 for r < 1/3]
+//   [GregoryQu96]
 
 #include "core/base/index.h"
 #include "core/curves/control_curve.h"

@@ -40,7 +40,7 @@ std::optional<double> curvature(std::span<const double> rows, Index dimension,
                                 std::span<const double> noise = {});
 
 // det(C', C'', C''') / |C' x C''|^2 of a curve in space, positive for a right-handed helix; absent where the
-// curve is straight. (Do Carmo's sign is the opposite one.)   [PottmannWallner01, section 1.1]
+// curve is straight. (Do Carmo's sign is the opposite one.)   [PottmannWallner01]
 std::optional<double> torsion(std::span<const double> rows, std::span<const double> noise = {});
 
 // Orthonormal: `dimension` numbers each. In the plane the normal is the tangent turned counter-clockwise by a

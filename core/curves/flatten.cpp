@@ -2,22 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 
 #include "core/curves/bezier.h"
 #include "core/curves/bounds.h"
+#include "core/curves/chord.h"
+#include "core/curves/measurement.h"
 
 namespace subdivd {
 namespace {
-
-constexpr Count kPollInterval = 64;  // pieces between two looks at the budget
-
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1e", value);
-  return text;
-}
 
 // What a local control point may be off after `level` halvings, as a distance: knot insertion (2 p steps of
 // about 4 roundings), p roundings per halving, twice that for quotients, in every coordinate.
@@ -37,22 +29,6 @@ double rounding_of_corners(const LocalSpline& local) {
   return std::sqrt(square);
 }
 
-// Squared distance of `point` from the segment between a and b.
-double square_from_segment(std::span<const double> point, std::span<const double> a,
-                           std::span<const double> b) {
-  double along = 0, length = 0, square = 0;
-  for (Count k = 0; k < a.size(); ++k) {
-    along += (point[k] - a[k]) * (b[k] - a[k]);
-    length += (b[k] - a[k]) * (b[k] - a[k]);
-  }
-  const double share = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
-  for (Count k = 0; k < a.size(); ++k) {
-    const double off = point[k] - (a[k] + share * (b[k] - a[k]));
-    square += off * off;
-  }
-  return square;
-}
-
 // The largest distance of a piece's control points from its chord. `points`: room for all of them, projected.
 double distance_from_chord(const BezierPiece& piece, const Spline& local, std::vector<double>& points) {
   const Index dimension = local.dimension(), width = local.width;
@@ -70,25 +46,6 @@ struct Part {
   Index level;
 };
 
-Error too_fine(const FlattenOptions& options, double least) {
-  return Error{ErrorCode::out_of_range,
-               "the tolerance " + brief(options.tolerance) +
-                   " is less than what the rounding of the coordinates allows, " + brief(least) +
-                   ": choose a larger one",
-               {"tolerance"},
-               0,
-               0};
-}
-
-Error too_many(Count predicted, Count allowed) {
-  return Error{ErrorCode::too_large,
-               "the polyline would have at least " + std::to_string(predicted) + " points; " +
-                   std::to_string(allowed) + " are allowed: choose a larger tolerance",
-               {"tolerance"},
-               predicted,
-               allowed};
-}
-
 // Halves `first` until every part is flat and adds the corner at the end of each, `points` in local
 // coordinates. `waiting`: pieces of the curve still to come, which are corners at least.
 Result<void> add_piece(const LocalSpline& local, BezierPiece first, double tolerance, Count most,
@@ -100,14 +57,15 @@ Result<void> add_piece(const LocalSpline& local, BezierPiece first, double toler
   std::vector<Part> ahead;  // the next one last; never more than one per level
   ahead.push_back({std::move(first), 0});
   for (Count steps = 1; !ahead.empty(); ++steps) {
-    if (steps % kPollInterval == 0)
+    if (steps % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     Part part = std::move(ahead.back());
     ahead.pop_back();
     const double rounded = 2 * rounding(spline, part.level) + corner;
     if (distance_from_chord(part.piece, spline, scratch) + rounded <= tolerance) {
       const Count corners = polyline.parameters.size() + 1;
-      if (corners + ahead.size() + waiting > most) return too_many(corners + ahead.size() + waiting, most);
+      if (corners + ahead.size() + waiting > most)
+        return too_many_corners(corners + ahead.size() + waiting, most);
       polyline.parameters.push_back(part.piece.end);
       polyline.points.insert(polyline.points.end(), scratch.end() - spline.dimension(), scratch.end());
       continue;
@@ -132,19 +90,14 @@ void keep_ends(const Spline& spline, Polyline& polyline) {
 }  // namespace
 
 Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, const Budget& budget) {
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
-    return Error{ErrorCode::out_of_range,
-                 "the tolerance must be a finite number above 0, in the unit of the coordinates",
-                 {"tolerance"},
-                 0,
-                 0};
+  if (auto checked = check_tolerance(options); !checked) return checked.error();
   const Result<LocalSpline> local = localized(spline);
   if (!local) return local.error();
   const Index dimension = spline.dimension();
   const Count fitting = budget.max_bytes / ((Count{dimension} + 1) * sizeof(double));
   const Count most = std::min(options.max_points, fitting);
   std::vector<BezierPiece> pieces = bezier_pieces(local->spline);
-  if (pieces.size() + 1 > most) return too_many(pieces.size() + 1, most);
+  if (pieces.size() + 1 > most) return too_many_corners(pieces.size() + 1, most);
 
   // May be infinite, which is fine with comparisons: so large a tolerance is kept by every chord, and any is
   // by a curve that is but a point.
@@ -155,7 +108,7 @@ Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, co
   polyline.points.resize(dimension);
   project(std::span(pieces.front().points).first(spline.width), spline.rational, polyline.points);
   for (Count i = 0; i < pieces.size(); ++i) {
-    if (i % kPollInterval == 0)
+    if (i % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     const Count waiting = pieces.size() - 1 - i;
     if (auto added =

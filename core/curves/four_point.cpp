@@ -3,6 +3,11 @@
 #include <cstddef>
 
 namespace subdivd {
+namespace {
+
+#include "core/curves/kernels/curve_rules.inc"
+
+}  // namespace
 
 bool is_four_point_tension(double w) { return w >= 0 && w < 1 && 32 * w * w * w + 4 * w < 1; }
 
@@ -16,15 +21,11 @@ LimitMasks four_point_limits(double w) {
 template <class Real>
 void four_point_children(double w, Index width, const Real* __restrict self, Count scalars,
                          Real* __restrict first, Real* __restrict second) {
-  const Real tension = static_cast<Real>(w);
+  const FourPointRule<Real> rule{static_cast<Real>(w)};
   const std::ptrdiff_t step = width;
-  for (Count k = 0; k < scalars; ++k) {
-    const Real* c = self + k;
-    const Real left = c[0] * tension - c[-step] * tension;
-    const Real right = c[step] * tension - c[2 * step] * tension;
-    first[k] = c[0];
-    second[k] = (c[0] * Real(0.5) + c[step] * Real(0.5)) + (left + right);
-  }
+  for (Count k = 0; k < scalars; ++k)
+    rule([=](std::ptrdiff_t away) { return self[away * step + static_cast<std::ptrdiff_t>(k)]; }, first[k],
+         second[k]);
 }
 
 template void four_point_children<float>(double, Index, const float*, Count, float*, float*);

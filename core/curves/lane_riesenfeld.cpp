@@ -9,102 +9,16 @@
 namespace subdivd {
 namespace {
 
-// --- Subdivision ------------------------------------------------------------------------------------------
-
-constexpr int half_width(int degree) { return (degree + 1) / 2; }
-
-// a_k = binom(p+1, k+h) / 2^p; 0 outside -h..p+1-h. Exact: the binomials are below 2^14.
-constexpr double mask_weight(int degree, int k) {
-  const int chosen = k + half_width(degree);
-  if (chosen < 0 || chosen > degree + 1) return 0;
-  std::int64_t binomial = 1;
-  for (int i = 0; i < chosen; ++i) binomial = binomial * (degree + 1 - i) / (i + 1);
-  return static_cast<double>(binomial) / static_cast<double>(std::int64_t{1} << degree);
-}
-
-// The most distant neighbour in either child.
-constexpr int reach_of(int degree) {
-  const int h = half_width(degree);
-  return degree % 2 == 1 ? (h % 2 == 1 ? (h + 1) / 2 : h / 2) : (h + 1) / 2;
-}
-
-// One child of a point: weights of c_{i-k} and c_{i+k} for k from `kReach` down to 0. Absent neighbours are
-// left out rather than multiplied by 0.
-template <int kDegree, int kParity, int kOffset, class Real>
-inline void add_tap(const Real* self, std::ptrdiff_t step, Real& sum, bool& started) {
-  constexpr double kWeight = mask_weight(kDegree, kParity - 2 * kOffset);
-  if constexpr (kWeight != 0) {
-    const Real tap = self[kOffset * step] * static_cast<Real>(kWeight);
-    sum = started ? sum + tap : tap;
-    started = true;
-  }
-}
-
-// The pair c_{i-k}, c_{i+k} of a child at point i: added to each other first, as reversal demands.
-template <int kDegree, int kDistance, class Real>
-inline void add_pair_around(const Real* self, std::ptrdiff_t step, Real& sum, bool& started) {
-  constexpr double kWeight = mask_weight(kDegree, 2 * kDistance);
-  if constexpr (kWeight != 0) {
-    const Real weight = static_cast<Real>(kWeight);
-    const Real pair = self[-kDistance * step] * weight + self[kDistance * step] * weight;
-    sum = started ? sum + pair : pair;
-    started = true;
-  }
-}
-
-// The pair c_{i-k}, c_{i+1+k} of a child between points i and i+1.
-template <int kDegree, int kDistance, class Real>
-inline void add_pair_between(const Real* self, std::ptrdiff_t step, Real& sum, bool& started) {
-  constexpr double kWeight = mask_weight(kDegree, 1 + 2 * kDistance);
-  if constexpr (kWeight != 0) {
-    const Real weight = static_cast<Real>(kWeight);
-    const Real pair = self[-kDistance * step] * weight + self[(kDistance + 1) * step] * weight;
-    sum = started ? sum + pair : pair;
-    started = true;
-  }
-}
-
-template <int kDegree, class Real, int... kInward>
-inline void primal_children(const Real* self, std::ptrdiff_t step, Real& first, Real& second,
-                            std::integer_sequence<int, kInward...>) {
-  constexpr int kReach = reach_of(kDegree);
-  Real sum = 0;
-  bool started = false;
-  (add_pair_around<kDegree, kReach - kInward>(self, step, sum, started), ...);
-  add_tap<kDegree, 0, 0>(self, step, sum, started);
-  first = sum;
-  started = false;
-  (add_pair_between<kDegree, kReach - kInward>(self, step, sum, started), ...);
-  add_pair_between<kDegree, 0>(self, step, sum, started);
-  second = sum;
-}
-
-// Child 2i is child 2i+1 seen from the other side: the same taps in the same order with the step negated.
-template <int kDegree, class Real, int... kInward>
-inline Real dual_child(const Real* self, std::ptrdiff_t step, std::integer_sequence<int, kInward...>) {
-  constexpr int kReach = reach_of(kDegree);
-  Real sum = 0;
-  bool started = false;
-  ((add_tap<kDegree, 1, kInward - kReach>(self, step, sum, started),
-    add_tap<kDegree, 1, kReach - kInward>(self, step, sum, started)),
-   ...);
-  add_tap<kDegree, 1, 0>(self, step, sum, started);
-  return sum;
-}
+#include "core/curves/kernels/curve_rules.inc"
 
 template <int kDegree, class Real>
 void children(Index width, const Real* __restrict self, Count scalars, Real* __restrict first,
               Real* __restrict second) {
-  using Inward = std::make_integer_sequence<int, reach_of(kDegree)>;
   const std::ptrdiff_t step = width;
-  for (Count k = 0; k < scalars; ++k) {
-    if constexpr (kDegree % 2 == 1) {
-      primal_children<kDegree>(self + k, step, first[k], second[k], Inward{});
-    } else {
-      first[k] = dual_child<kDegree>(self + k, -step, Inward{});
-      second[k] = dual_child<kDegree>(self + k, step, Inward{});
-    }
-  }
+  constexpr LaneRiesenfeldRule<Real, kDegree> kRule;
+  for (Count k = 0; k < scalars; ++k)
+    kRule([=](std::ptrdiff_t away) { return self[away * step + static_cast<std::ptrdiff_t>(k)]; }, first[k],
+          second[k]);
 }
 
 template <class Real>

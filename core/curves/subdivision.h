@@ -6,9 +6,9 @@
 //                primal (odd degree, four_point)    dual (even degree, corner_cutting)
 //   periodic     j h                                (j + 1/2) h - 1/2
 //   pinned       j h                                (j - 1/2) h; the first at 0, the last at N - 2
-//   nonperiodic  j h + (lost - 1) / 2 (1 - h)       the same; lost: degree, 5 of four_point, 2 of
-//   corner_cutting
+//   nonperiodic  j h + (lost - 1) / 2 (1 - h)       the same
 //
+// (lost: degree, 5 of four_point, 2 of corner_cutting),
 // so that control point i of a pinned dual curve stands at i - 1/2 and of every other curve at i.
 //
 // A pinned curve keeps its end points; it is continued beyond them by central symmetry, c_{-k} = 2 c_0 - c_k

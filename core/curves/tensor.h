@@ -51,7 +51,8 @@ struct ControlPatch {
   Index width = 3;             // scalars per point: 1..kMaxPatchWidth
   std::vector<double> points;  // width scalars per point; point (i, j) is the (j u_count + i)-th
 
-  // First fault and its place (uDegree, vDegree, width, uCount, vCount, points).
+  // First fault and its place (uDegree, vDegree, width, uVertexCount, vVertexCount,
+  // points).
   Result<void> check() const;
 };
 

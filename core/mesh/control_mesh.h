@@ -23,7 +23,7 @@ enum class BoundaryInterpolation {
 // [USD faceVaryingLinearInterpolation], from least to most linear.
 enum class FaceVaryingInterpolation { none, corners_only, corners_plus1, corners_plus2, boundaries, all };
 
-// How the sharpness of a semi-sharp crease decays along the levels.  [DeRose 98, section 4; RenderMan]
+// How the sharpness of a semi-sharp crease decays along the levels.  [DeRose98, section 4; RenderMan]
 enum class CreaseMethod { uniform, chaikin };
 
 // One value per: mesh (constant), base face (uniform), point and refined linearly (varying),

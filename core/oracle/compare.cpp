@@ -1,13 +1,13 @@
 #include "core/oracle/compare.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/oracle/correspondence.h"
 #include "core/oracle/tally.h"
+#include "core/oracle/vectors.h"
 #include "core/refine/split.h"
 
 namespace subdivd::oracle {
@@ -23,36 +23,6 @@ constexpr const char* kIrregularBorder =
     "Far's tangent across a border vertex of more than three faces is no eigenvector of the subdivision";
 constexpr const char* kNoNormal = "degenerate surface without a normal";
 constexpr const char* kTorn = "Far tears a value that two separate groups of faces around a point share";
-
-using Vector = std::array<double, 3>;
-
-template <class Real>
-Vector vector_at(std::span<const Real> values, Index v) {
-  const std::size_t at = std::size_t{3} * v;
-  return {double{values[at]}, double{values[at + 1]}, double{values[at + 2]}};
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }  // no overflow on the way
-
-// Length 1; the zero vector stays.
-Vector unit(Vector a) {
-  const double size = length(a);
-  if (!(size > 0)) return a;
-  for (double& x : a) x /= size;
-  return a;
-}
-
-// atan2 keeps small angles exact where acos loses half the digits.
-double degrees_between(const Vector& a, const Vector& b) {
-  const Vector normal = cross(a, b);
-  return std::atan2(std::sqrt(dot(normal, normal)), dot(a, b)) * 180 / std::numbers::pi;
-}
 
 // Everything that one level's comparisons share.
 template <class Real>

@@ -2,9 +2,11 @@
 // Our refined levels against the same levels by Far.
 
 #include "core/curves/subdivision.h"
+#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_curves.h"
+#include "core/oracle/far_surfaces.h"
 #include "core/oracle/report.h"
 #include "core/oracle/scale.h"
 #include "core/refine/refined_mesh.h"
@@ -21,6 +23,12 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
 // connectivity_identical: the same number of points, curve by curve.
 template <class Real>
 LevelReport compare(const RefinedCurves<Real>& ours, const FarCurves& far, const PointScale& scale);
+
+// One refined level of a bicubic surface, with its quads, and the same level by Far (deviations: verify.h
+// says how the worst point is named). connectivity_identical: a grid of the same size, of the same quads
+// whatever their order; otherwise nothing else is compared.
+template <class Real>
+LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, const FarSurface& far);
 
 // Connectivity identical and every deviation within its tolerance.
 bool passed(const LevelReport& level);

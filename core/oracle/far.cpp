@@ -2,61 +2,18 @@
 
 #include <opensubdiv/far/primvarRefiner.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <span>
 
 #include "core/oracle/far_grid.h"
 #include "core/oracle/far_quirks.h"
 #include "core/oracle/far_refiner.h"
+#include "core/oracle/far_rows.h"
 
 namespace subdivd::oracle {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
-
-// Rows of `width` scalars, as Far's templates want to see them.
-template <class Real>
-class Rows {
- public:
-  Rows(std::vector<Real>& values, Index width) : data_(values.data()), width_(width) {}
-
-  class Row {
-   public:
-    Row(Real* data, Index width) : data_(data), width_(width) {}
-    void Clear() { std::fill_n(data_, width_, Real(0)); }
-    // Far passes its weights as Real, float or double literals.
-    template <class Weight>
-    void AddWithWeight(const Row& from, Weight weight) {
-      for (Index k = 0; k < width_; ++k) data_[k] += static_cast<Real>(weight) * from.data_[k];
-    }
-
-   private:
-    Real* data_;
-    Index width_;
-  };
-
-  Row operator[](int i) const { return {data_ + static_cast<std::size_t>(i) * width_, width_}; }
-
- private:
-  Real* data_;
-  Index width_;
-};
-
-template <class Real>
-Result<std::vector<Real>> converted(const std::vector<double>& values, Path where) {
-  std::vector<Real> result(values.size());
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (std::abs(values[k]) > static_cast<double>(std::numeric_limits<Real>::max()))
-      return Error{ErrorCode::out_of_range, "a number is too large for single precision", std::move(where), 0,
-                   0};
-    result[k] = static_cast<Real>(values[k]);
-  }
-  return result;
-}
 
 // Values spread out by their indices; without indices as they stand.
 template <class Real>
@@ -234,6 +191,26 @@ Count far_bytes(const ControlMesh& mesh, Index level) {
   return (mesh.face_count() << (2 * level)) * per_triangle;
 }
 
+Result<void> check_far_corners(Count corners) {
+  constexpr Count kMost = std::numeric_limits<int>::max();
+  if (corners <= kMost) return {};
+  return Error{ErrorCode::too_large,
+               "the refined mesh has more face corners than OpenSubdiv can number",
+               {},
+               corners,
+               kMost};
+}
+
+Result<void> check_far_bytes(Count bytes, const Budget& budget) {
+  if (bytes <= budget.max_bytes) return {};
+  return Error{ErrorCode::too_large,
+               "verification would take about " + std::to_string(bytes) + " bytes; " +
+                   std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
+               {},
+               bytes,
+               budget.max_bytes};
+}
+
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget) {
   if (level > kMaxFarLevel)
     return Error{ErrorCode::out_of_range,
@@ -245,24 +222,10 @@ Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& 
   if (mesh.face_count() == 0 || mesh.point_count() == 0)
     return Error{
         ErrorCode::unsupported, "OpenSubdiv takes no mesh without faces", {"faceVertexIndices"}, 0, 0};
-  // Far sums face corners over all levels in an int: a third more than the last level has.
+  // Far sums face corners over all levels: a third more than the last level has.
   const Count corners = (mesh.face_count() * 3 << (2 * level)) * 4 / 3 + mesh.point_count();
-  constexpr Count kMost = std::numeric_limits<int>::max();
-  if (corners > kMost)
-    return Error{ErrorCode::too_large,
-                 "the refined mesh has more face corners than OpenSubdiv can number",
-                 {},
-                 corners,
-                 kMost};
-  const Count bytes = far_bytes(mesh, level);
-  if (bytes > budget.max_bytes)
-    return Error{ErrorCode::too_large,
-                 "verification would take about " + std::to_string(bytes) + " bytes; " +
-                     std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
-                 {},
-                 bytes,
-                 budget.max_bytes};
-  return {};
+  if (auto fits = check_far_corners(corners); !fits) return fits;
+  return check_far_bytes(far_bytes(mesh, level), budget);
 }
 
 template <class Real>

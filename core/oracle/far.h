@@ -56,6 +56,10 @@ struct FarLevel {
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget);
 // Bytes that Far and FarLevel<double> take at their peak, roughly; measured, on the safe side.
 Count far_bytes(const ControlMesh& mesh, Index level);
+// too_large when the levels of one refiner have more face corners together than an int counts, as Far does.
+Result<void> check_far_corners(Count corners);
+// too_large when verification takes more than budget.max_bytes.
+Result<void> check_far_bytes(Count bytes, const Budget& budget);
 
 // Refines to options.level (0..kMaxFarLevel) in one go. `mesh` must have passed check(): Far checks nothing.
 // Fails as check_far_size, with out_of_range for a number that Real cannot hold, with unsupported for what

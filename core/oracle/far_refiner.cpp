@@ -1,7 +1,6 @@
 #include "core/oracle/far_refiner.h"
 
 #include <opensubdiv/far/error.h>
-#include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <numeric>
@@ -90,8 +89,19 @@ std::vector<int> corner_values(const Primvar& primvar, Count corners) {
   return indices;
 }
 
-Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method) {
+Result<FarRefiner> create_refiner(const Far::TopologyDescriptor& topology, Sdc::SchemeType scheme,
+                                  Sdc::Options rules) {
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   install_callbacks();
+  take_far_error();
+  FarRefiner refiner(Factory::Create(topology, Factory::Options(scheme, rules)));
+  const std::string complaint = take_far_error();
+  if (refiner == nullptr || !complaint.empty())
+    return Error{ErrorCode::unsupported, "OpenSubdiv does not take this mesh: " + complaint, {}, 0, 0};
+  return refiner;
+}
+
+Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method) {
   Sdc::Options rules;  // Far's defaults are not OpenUSD's: set all of them
   rules.SetVtxBoundaryInterpolation(far_boundary(mesh.interpolate_boundary));
   rules.SetFVarLinearInterpolation(far_linear(mesh.face_varying_linear_interpolation));
@@ -128,13 +138,7 @@ Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_met
   topology.numFVarChannels = size_of(channels);
   topology.fvarChannels = channels.data();
 
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  take_far_error();
-  FarRefiner refiner(Factory::Create(topology, Factory::Options(Sdc::SCHEME_LOOP, rules)));
-  const std::string complaint = take_far_error();
-  if (refiner == nullptr || !complaint.empty())
-    return Error{ErrorCode::unsupported, "OpenSubdiv does not take this mesh: " + complaint, {}, 0, 0};
-  return refiner;
+  return create_refiner(topology, Sdc::SCHEME_LOOP, rules);
 }
 
 }  // namespace subdivd::oracle

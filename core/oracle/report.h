@@ -30,6 +30,7 @@ struct LevelReport {
   Index level = 0;
   bool connectivity_identical = false;
   Count vertices = 0, triangles = 0;
+  Count quads = 0;  // of surfaces, which have no triangles
   std::vector<Deviation> deviations;
 };
 
@@ -48,10 +49,18 @@ struct CurveReport {
   std::vector<std::string> remarks;  // e.g. "periodic curves: compared as a closed border"
 };
 
+struct SurfaceReport {
+  std::string name, precision;
+  std::vector<LevelReport> levels;  // quantity "points", "limitPoints" and "normals"
+  bool passed = false;
+  std::vector<std::string> remarks;  // e.g. "u is periodic: compared on a grid that closes in that direction"
+};
+
 struct Report {
   std::string oracle;  // "OpenSubdiv 3.5.0 Far"
   std::vector<MeshReport> meshes;
   std::vector<CurveReport> curves;
+  std::vector<SurfaceReport> surfaces;
   bool passed = false;
 };
 

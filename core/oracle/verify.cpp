@@ -5,32 +5,16 @@
 #include <algorithm>
 
 #include "core/oracle/compare.h"
+#include "core/oracle/remarks.h"
 
 namespace subdivd::oracle {
 namespace {
 
-// One remark for every reason for which something was left out, however many levels name it.
-void remark_exceptions(MeshReport& report) {
-  for (const LevelReport& level : report.levels)
-    for (const Deviation& deviation : level.deviations) {
-      if (deviation.exception.empty()) continue;
-      const std::string remark = deviation.quantity + ": left out: " + deviation.exception;
-      if (std::find(report.remarks.begin(), report.remarks.end(), remark) == report.remarks.end())
-        report.remarks.push_back(remark);
-    }
-}
-
-void remark_tolerances(const ControlMesh& mesh, MeshReport& report) {
+void remark_sharpness(const ControlMesh& mesh, MeshReport& report) {
   if (sharpness_rounds(mesh))
     report.remarks.push_back(
         "three or more semi-sharp edges meet: sharpness is single precision and its sums "
         "round by their order, so the tolerance of values is at least 1e-7");
-  const double remoteness = point_scale(mesh.points, 3).remoteness;
-  if (remoteness > 1)
-    report.remarks.push_back(
-        "the mesh lies far from the origin for its size: coordinates round by their "
-        "magnitude, so the tolerance of positions is " +
-        std::to_string(remoteness) + " times as wide");
 }
 
 }  // namespace
@@ -66,8 +50,9 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
     report.levels.push_back(compare(mesh, *ours, *far));
     report.passed = report.passed && passed(report.levels.back());
   }
-  remark_exceptions(report);
-  remark_tolerances(mesh, report);
+  remark_exceptions(report.levels, report.remarks);
+  remark_sharpness(mesh, report);
+  remark_remoteness("mesh", point_scale(mesh.points, 3).remoteness, report.remarks);
   return report;
 }
 

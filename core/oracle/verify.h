@@ -1,13 +1,14 @@
 #pragma once
-// Verifies our refinement of a control mesh or curve against OpenSubdiv's Far (uniform refinement, primvar
-// interpolation, face-varying interpolation, Limit), level by level, in the same precision. Includes no
-// OpenSubdiv.
+// Verifies our refinement of a control mesh, curve or surface against OpenSubdiv's Far (uniform refinement,
+// primvar interpolation, face-varying interpolation, Limit), level by level, in the same precision. Includes
+// no OpenSubdiv.
 
 #include <string>
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/subdivision.h"
+#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"
@@ -33,5 +34,19 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
 // a time. In deviations worst_vertex is the refined point, worst_face the curve, worst_u its parameter t.
 template <class Real>
 Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& options, const Budget& budget);
+
+// A bicubic surface on a grid of points is Catmull-Clark on the grid's quads: periodic directions close the
+// grid, pinned ones end at its border (whose points follow the cubic curve's rules, and whose corners stay),
+// nonperiodic ones are the inner part of pinned ones. Far refines its own points, one level at a time.
+// Compares levels 1..options.level (level 0 when that is asked for): the quads, points, and with
+// options.limit and options.normals limits and normals (points of width 3 only), tolerances as above. `patch`
+// must have passed check(). Left out, counted and named: limits and normals at the ends of nonperiodic
+// directions, which the surface does not reach; normals where Far's tangents have no cross product that
+// rounding could not have made. options.tangents and options.faces play no part. In deviations worst_vertex
+// is the refined point, worst_u and worst_v its parameters as patch_parameter gives them, worst_face the quad
+// of the control grid. Fails with unsupported for other degrees than 3 at {"uDegree"} or {"vDegree"}, as
+// predict_bytes, and with too_large for what Far cannot number or for working memory over budget.max_bytes.
+template <class Real>
+Result<SurfaceReport> verify(const ControlPatch& patch, const PatchOptions& options, const Budget& budget);
 
 }  // namespace subdivd::oracle

@@ -31,13 +31,7 @@ Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& opti
         0,
         0};
   if (const auto sizes = predict_bytes<Real>(curves, options); !sizes) return sizes.error();
-  if (const Count bytes = far_curve_bytes(curves, options.level); bytes > budget.max_bytes)
-    return Error{ErrorCode::too_large,
-                 "verification would take about " + std::to_string(bytes) + " bytes; " +
-                     std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
-                 {},
-                 bytes,
-                 budget.max_bytes};
+  if (auto fits = check_far_bytes(far_curve_bytes(curves, options.level), budget); !fits) return fits.error();
   CurveReport report;
   report.name = curves.name;
   report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";

@@ -88,6 +88,13 @@ Index add_mesh(Json& document, const std::string& name, Json::Array primitives) 
   return number;
 }
 
+void warn_of_width(const char* kind, const std::string& name, Index width,
+                   std::vector<std::string>& warnings) {
+  if (width > 3)
+    warnings.push_back(std::string(kind) + " \"" + name + "\": only the first 3 of " + std::to_string(width) +
+                       " numbers per point are written, as its position");
+}
+
 void add_curves(const RefineRequest& request, Index index, Source& source,
                 std::vector<std::string>& warnings) {
   const ControlCurves& curves = request.curves[index];
@@ -99,9 +106,18 @@ void add_curves(const RefineRequest& request, Index index, Source& source,
   const Index mesh = add_mesh(source.document, curves.name, std::move(primitives));
   for (Index ordinal = 0; ordinal < count; ++ordinal)
     source.curves.push_back({mesh, ordinal, mode, {index}, ordinal, {}});
-  if (curves.width > 3)
-    warnings.push_back("curve \"" + curves.name + "\": only the first 3 of " + std::to_string(curves.width) +
-                       " numbers per point are written, as its position");
+  warn_of_width("curve", curves.name, curves.width, warnings);
+}
+
+void add_surface(const RefineRequest& request, Index index, Source& source,
+                 std::vector<std::string>& warnings) {
+  const ControlPatch& surface = request.surfaces[index];
+  TrianglesSlot slot;
+  slot.mesh = add_mesh(source.document, surface.name, {make_primitive(kTriangles)});
+  slot.control_mesh = index;
+  slot.normals = patch_options(request, surface).normals;
+  source.surfaces.push_back(std::move(slot));
+  warn_of_width("surface", surface.name, surface.width, warnings);
 }
 
 }  // namespace
@@ -113,7 +129,8 @@ Source make_source(const RefineRequest& request, std::vector<std::string>& warni
   asset.set("generator", "subdivd " SUBDIVD_VERSION);
   source.document.set("scene", Json::number(Count{0}));
   Json::Array nodes;
-  for (Count i = 0; i < request.meshes.size() + request.curves.size(); ++i) nodes.push_back(Json::number(i));
+  const Count count = request.meshes.size() + request.curves.size() + request.surfaces.size();
+  for (Count i = 0; i < count; ++i) nodes.push_back(Json::number(i));
   Json scene;
   scene.set("nodes", std::move(nodes));
   source.document.array_member("scenes").push_back(std::move(scene));
@@ -128,6 +145,7 @@ Source make_source(const RefineRequest& request, std::vector<std::string>& warni
     source.triangles.push_back(std::move(slot));
   }
   for (Index i = 0; i < request.curves.size(); ++i) add_curves(request, i, source, warnings);
+  for (Index i = 0; i < request.surfaces.size(); ++i) add_surface(request, i, source, warnings);
   return source;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// glTF documents for requests that came as JSON: one node and one mesh for every ControlMesh and every
-// ControlCurves, in that order.
+// glTF documents for requests that came as JSON: one node and one mesh for every ControlMesh, every
+// ControlCurves and every ControlPatch, in that order.
 //
 //   primvars of 2 scalars named st, uv or map (with or without a number)  TEXCOORD_0, TEXCOORD_1, …
 //   displayColor of 3 or 4 scalars                                        COLOR_0

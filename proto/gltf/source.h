@@ -23,7 +23,7 @@ struct AttributeSlot {
 
 struct TrianglesSlot {
   Index mesh = 0, primitive = 0;  // in the document
-  Index control_mesh = 0;         // in the request
+  Index control_mesh = 0;         // in the request; of surfaces: which of them
   Index render_mesh = kNoIndex;   // of the control mesh; kNoIndex: every point is a vertex
   bool normals = false;
   std::vector<AttributeSlot> attributes;
@@ -43,6 +43,7 @@ class Source {
   std::vector<std::byte> data;  // what buffer 0 holds already; a multiple of 4 bytes
   std::vector<TrianglesSlot> triangles;
   std::vector<CurvesSlot> curves;
+  std::vector<TrianglesSlot> surfaces;  // without render meshes and attributes
   struct Foreign {
     std::uint32_t type;
     std::vector<std::byte> bytes;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,26 @@ Result<void> attach(Json& asset, std::string_view envelope, const std::vector<st
   return {};
 }
 
+// Points of space whatever the width: zeros stand for what a narrow point lacks.
+template <class Real>
+Buffer<Real> in_space(Buffer<Real> points, Index width) {
+  if (width == 3) return points;
+  Buffer<Real> out(points.size() / width * 3, Real(0));
+  for (Count i = 0; i < out.size() / 3; ++i)
+    std::copy_n(&points[i * width], std::min<Index>(width, 3), &out[i * 3]);
+  return out;
+}
+
+template <class Real>
+RefinedMesh<Real> mesh_of(RefinedPatch<Real> surface) {
+  RefinedMesh<Real> mesh;
+  Buffer<Real>& points = surface.limit_points.empty() ? surface.points : surface.limit_points;
+  mesh.points = in_space(std::move(points), surface.width);
+  mesh.triangles = std::move(surface.faces);
+  mesh.normals = std::move(surface.normals);
+  return mesh;
+}
+
 template <class Real>
 Result<void> fill(const Source& source, RefineAnswer<Real>& answer, Output& output, Warnings& warnings) {
   for (const TrianglesSlot& slot : source.triangles)
@@ -41,6 +62,10 @@ Result<void> fill(const Source& source, RefineAnswer<Real>& answer, Output& outp
       return written;
   for (const CurvesSlot& slot : source.curves)
     if (auto written = write_curves(slot, answer.curves, output); !written) return written;
+  for (const TrianglesSlot& slot : source.surfaces) {
+    RefinedMesh<Real> mesh = mesh_of(std::move(answer.surfaces[slot.control_mesh]));
+    if (auto written = write_triangles(slot, mesh, output, warnings); !written) return written;
+  }
   return {};
 }
 
@@ -59,6 +84,8 @@ Count envelope_bytes(const RefineRequest& request) {
   }
   for (const ControlCurves& curves : request.curves)
     bytes += kMesh + 12 * curves.name.size() + levels * (kLevel + 2 * kDeviation);
+  for (const ControlPatch& surface : request.surfaces)
+    bytes += kMesh + 12 * surface.name.size() + (request.options.level + 1) * kLevel;
   return bytes;
 }
 
@@ -81,6 +108,14 @@ Count triangles_bytes(const TrianglesSlot& slot, const ControlMesh& mesh, const 
   }
   vertices = std::max<Count>(vertices, 1);
   return vertices * floats * sizeof(float) + index_bytes(std::max<Count>(corners, 3), vertices);
+}
+
+Count surface_bytes(const TrianglesSlot& slot, const ControlPatch& surface, Index level) {
+  const Count u = refined_grid_count(surface.u_wrap, surface.u_degree, surface.u_count, level);
+  const Count v = refined_grid_count(surface.v_wrap, surface.v_degree, surface.v_count, level);
+  const Count quads = (u - (surface.u_wrap == CurveWrap::periodic ? 0 : 1)) *
+                      (v - (surface.v_wrap == CurveWrap::periodic ? 0 : 1));
+  return u * v * (slot.normals ? 6 : 3) * sizeof(float) + index_bytes(6 * quads, u * v);
 }
 
 Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all, Index level) {
@@ -125,6 +160,10 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
     bin += curves_bytes(slot, request.curves, request.options.level);
     json += (slot.attributes.size() + 2) * kAccessorTextBytes;
     for (const AttributeSlot& attribute : slot.attributes) json += 6 * attribute.name.size();
+  }
+  for (const TrianglesSlot& slot : source.surfaces) {
+    bin += surface_bytes(slot, request.surfaces[slot.control_mesh], request.options.level);
+    json += 3 * kAccessorTextBytes;
   }
   if (answer_format(request) == Format::gltf) return json + (bin + 2) / 3 * 4;
   for (const Source::Foreign& chunk : source.foreign) json += chunk.bytes.size() + 8;

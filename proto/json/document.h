@@ -1,5 +1,6 @@
 #pragma once
-// What the readers of all JSON bodies share: the document around the object, lists of curves, options.
+// What the readers of all JSON bodies share: the document around the object, lists of curves and surfaces,
+// options.
 
 #include <simdjson.h>
 
@@ -17,8 +18,9 @@ namespace subdivd::proto::json {
 Result<void> read_document(std::string_view body,
                            const std::function<bool(Cursor&, simdjson::ondemand::object)>& read);
 
-// The members "curves" and "options".
+// The members "curves", "surfaces" and "options".
 bool read_curve_list(Cursor& cursor, Value value, RefineRequest& out);
+bool read_surface_list(Cursor& cursor, Value value, RefineRequest& out);
 bool read_options(Cursor& cursor, Value value, Options& out);
 
 }  // namespace subdivd::proto::json

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -76,6 +77,23 @@ Json curve_statistics(const ControlCurves& curves, Index level) {
   return json;
 }
 
+Json surface_statistics(const ControlPatch& surface, Index level) {
+  const auto counts = [&](Index l) {
+    const Count u = refined_grid_count(surface.u_wrap, surface.u_degree, surface.u_count, l);
+    const Count v = refined_grid_count(surface.v_wrap, surface.v_degree, surface.v_count, l);
+    return Json{{"uVertexCount", u}, {"vVertexCount", v}, {"points", u * v}};
+  };
+  Json json;
+  if (!surface.name.empty()) json["name"] = surface.name;
+  json["input"] = counts(0);
+  for (Index l = 0; l <= level; ++l) {
+    Json one = {{"level", l}};
+    one.update(counts(l));
+    json["levels"].push_back(std::move(one));
+  }
+  return json;
+}
+
 // `refined_points`: of every mesh; empty when nothing was refined.
 Json statistics(const RefineRequest& request, const std::vector<Count>& refined_points) {
   Json json;
@@ -85,6 +103,8 @@ Json statistics(const RefineRequest& request, const std::vector<Count>& refined_
         mesh_statistics(request.meshes[i], level, i < refined_points.size() ? refined_points[i] : 0));
   for (const ControlCurves& curves : request.curves)
     json["curves"].push_back(curve_statistics(curves, level));
+  for (const ControlPatch& surface : request.surfaces)
+    json["surfaces"].push_back(surface_statistics(surface, level));
   return json;
 }
 
@@ -95,6 +115,12 @@ void add_outputs(Json& json, const RefineAnswer<Real>& answer) {
                                    {"triangles", answer.meshes[i].triangle_count}};
   for (std::size_t i = 0; i < answer.curves.size() && i < json["curves"].size(); ++i)
     json["curves"][i]["output"] = {{"points", answer.curves[i].points.size() / answer.curves[i].width}};
+  for (std::size_t i = 0; i < answer.surfaces.size() && i < json["surfaces"].size(); ++i) {
+    const RefinedPatch<Real>& surface = answer.surfaces[i];
+    json["surfaces"][i]["output"] = {{"points", surface.points.size() / surface.width},
+                                     {surface.corners_per_face == 4 ? "quads" : "triangles",
+                                      surface.faces.size() / std::max<Index>(surface.corners_per_face, 1)}};
+  }
 }
 
 Json warnings(const RefineRequest& request, bool refined) {
@@ -103,6 +129,12 @@ Json warnings(const RefineRequest& request, bool refined) {
     texts.push_back(
         "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
         "out");
+  if (!request.surfaces.empty() && request.options.faces == Faces::quads &&
+      answer_faces(request) != Faces::quads)
+    texts.push_back("glTF knows no quads: the faces of surfaces are triangles; take format json for quads");
+  if (refined && request.options.normals &&
+      std::ranges::any_of(request.surfaces, [](const ControlPatch& surface) { return surface.width != 3; }))
+    texts.push_back("normals exist for surfaces of 3 numbers per point only; others get none");
   return texts;
 }
 

@@ -66,6 +66,16 @@ Count curves_text(const ControlCurves& curves, Index level, Count number, bool t
          indices_text(curve_count, points) + on_knots_text(curves, points);
 }
 
+// The grid of the patch and its faces, quads at least as long as triangles: 4 corners and a count each.
+Count surface_text(const ControlPatch& patch, Index level, Count number, bool normals) {
+  const Count points = refined_grid_count(patch.u_wrap, patch.u_degree, patch.u_count, level) *
+                       refined_grid_count(patch.v_wrap, patch.v_degree, patch.v_count, level);
+  Count bytes = kMemberText + name_text(patch.name) + tuples_text(points, patch.width, number) +
+                indices_text(6 * points, points);
+  if (normals) bytes += tuples_text(points, 3, number);
+  return bytes;
+}
+
 // One level of a verification: positions, limits, normals, two quantities per primvar, each a Deviation.
 Count verification_text(const ControlMesh* mesh, Index level) {
   constexpr Count deviation = 1024;
@@ -91,6 +101,10 @@ Count predicted_envelope_bytes(const RefineRequest& request) {
     bytes += name_text(curves.name) + levels;
     if (request.options.verify) bytes += name_text(curves.name) + verification_text(nullptr, level);
   }
+  for (const ControlPatch& surface : request.surfaces) {
+    bytes += name_text(surface.name) + levels;
+    if (request.options.verify) bytes += name_text(surface.name) + verification_text(nullptr, level);
+  }
   return bytes;
 }
 
@@ -102,6 +116,8 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
     bytes += mesh_text(request.meshes[i], meshes[i], number, normals);
   for (const ControlCurves& curves : request.curves)
     bytes += curves_text(curves, request.options.level, number, normals);
+  for (const ControlPatch& surface : request.surfaces)
+    bytes += surface_text(surface, request.options.level, number, normals);
   return bytes;
 }
 

@@ -45,7 +45,7 @@ class DocumentReader {
       : cursor_(cursor), limits_(limits), out_(out), top_mesh_(cursor) {}
 
   // The members of a mesh may stand at the top, too.
-  static constexpr std::size_t kOwnMembers = 6;
+  static constexpr std::size_t kOwnMembers = 7;
   static constexpr std::size_t kMembers = kOwnMembers + MeshReader::kMembers;
   static const std::array<Cursor::Member<DocumentReader>, kMembers>& members();
 
@@ -62,10 +62,10 @@ class DocumentReader {
       add(top_mesh_.take());
       return true;
     }
-    if (seen[0] || seen[1]) return true;
+    if (seen[0] || seen[1] || seen[2]) return true;
     return cursor_.fail(ErrorCode::missing_field,
                         "the body holds nothing to refine; give points and "
-                        "faceVertexIndices, or meshes, or curves");
+                        "faceVertexIndices, or meshes, curves or surfaces");
   }
 
   bool meshes(Value value) {
@@ -78,6 +78,8 @@ class DocumentReader {
   }
 
   bool curves(Value value) { return read_curve_list(cursor_, value, out_); }
+
+  bool surfaces(Value value) { return read_surface_list(cursor_, value, out_); }
 
   bool options(Value value) { return read_options(cursor_, value, out_.options); }
 
@@ -111,6 +113,7 @@ const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& Docu
   static constexpr std::array<Cursor::Member<D>, kMembers> table = {{
       {"meshes", &D::meshes},
       {"curves", &D::curves},
+      {"surfaces", &D::surfaces},
       {"options", &D::options},
       {"statistics", &D::ignored},
       {"warnings", &D::ignored},
@@ -144,6 +147,16 @@ bool read_curve_list(Cursor& cursor, Value value, RefineRequest& out) {
     if (curves.had_tangents) warn_once(out.warnings, warned, "tangents of the body are not used");
     out.curves.push_back(std::move(curves.curves));
     out.curve_forms.push_back(curves.form);
+    return true;
+  });
+}
+
+bool read_surface_list(Cursor& cursor, Value value, RefineRequest& out) {
+  return each(cursor, value, "an array of surfaces", [&](Value one) {
+    CurvesRead read;
+    if (!read_surface(cursor, one, read)) return false;
+    out.surfaces.push_back(*std::move(read.surface));
+    out.surface_forms.push_back(read.form);
     return true;
   });
 }

@@ -1,4 +1,5 @@
-// The bodies of /v1/curves/*: one curve at the top or several in "curves", and what is asked about them.
+// The bodies of /v1/curves/*: one curve or surface at the top or several in "curves" and "surfaces", and what
+// is asked about them.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include "proto/json/arrays.h"
 #include "proto/json/cursor.h"
 #include "proto/json/document.h"
+#include "proto/json/json.h"
 #include "proto/json/read_mesh.h"
 #include "proto/options.h"
 #include "proto/prepare.h"
@@ -25,13 +27,14 @@ class CurveTaskReader {
   CurveTaskReader(Cursor& cursor, const Limits& limits, CurveRequest& out)
       : cursor_(cursor), limits_(limits), out_(out), top_curve_(cursor, top_) {}
 
-  static constexpr std::size_t kOwnMembers = 20;
-  static constexpr std::size_t kMembers = kOwnMembers + CurvesReader::kMembers;
+  static constexpr std::size_t kOwnMembers = 21;
+  static constexpr std::size_t kMembers = kOwnMembers + CurvesReader::kMembers + 9;  // of surfaces alone
   static const std::array<Cursor::Member<CurveTaskReader>, kMembers>& members() {
     using T = CurveTaskReader;
     using C = CurvesReader;
     static constexpr std::array<Cursor::Member<T>, kMembers> table = {{
         {"curves", &T::curves},
+        {"surfaces", &T::surfaces},
         {"options", &T::options},
         {"samples", &T::samples},
         {"derivatives", &T::derivatives},
@@ -66,6 +69,15 @@ class CurveTaskReader {
         {"ranges", &T::of_curve<&C::ranges>},
         {"pointWeights", &T::of_curve<&C::point_weights>},
         {"tangents", &T::of_curve<&C::tangents>},
+        {"uVertexCount", &T::of_curve<&C::u_vertex_count>},
+        {"vVertexCount", &T::of_curve<&C::v_vertex_count>},
+        {"uDegree", &T::of_curve<&C::u_degree>},
+        {"vDegree", &T::of_curve<&C::v_degree>},
+        {"uWrap", &T::of_curve<&C::u_wrap>},
+        {"vWrap", &T::of_curve<&C::v_wrap>},
+        {"faceVertexCounts", &T::of_curve<&C::face_vertex_counts>},
+        {"faceVertexIndices", &T::of_curve<&C::face_vertex_indices>},
+        {"normals", &T::of_curve<&C::normals>},
     }};
     return table;
   }
@@ -74,40 +86,51 @@ class CurveTaskReader {
     std::bitset<kMembers> seen;
     if (!cursor_.read_members(object, members(), *this, seen)) return false;
     if ((seen >> kOwnMembers).any()) {
-      if (seen[0])
+      if (seen[0] || seen[1])
         return cursor_.fail(ErrorCode::duplicate_field,
-                            "the body has curves and members of a single curve; give one or the other",
-                            {"curves"});
+                            "the body has lists and members of a single curve; give one or the other",
+                            {seen[0] ? "curves" : "surfaces"});
       if (!top_curve_.finish()) return false;
-      out_.curves.single_curve_at_top = true;
-      out_.curves.curves.push_back(std::move(top_.curves));
-      out_.curves.curve_forms.push_back(top_.form);
-    } else if (!seen[0]) {
+      take_top();
+    } else if (!seen[0] && !seen[1]) {
       return cursor_.fail(ErrorCode::missing_field, "the body holds no curve; give points, or curves");
     }
     return check_members(seen);
   }
 
   bool curves(Value value) { return read_curve_list(cursor_, value, out_.curves); }
+  bool surfaces(Value value) { return read_surface_list(cursor_, value, out_.curves); }
   bool options(Value value) { return read_options(cursor_, value, out_.curves.options); }
 
   bool samples(Value value) {
     simdjson::ondemand::object object;
-    if (value.get_object().get(object)) return cursor_.fail_type(value, "an object with curves and ts");
-    static constexpr std::array<Cursor::Member<CurveTaskReader>, 2> table = {
-        {{"curves", &CurveTaskReader::sample_curves}, {"ts", &CurveTaskReader::sample_ts}}};
-    std::bitset<2> seen;
+    if (value.get_object().get(object))
+      return cursor_.fail_type(value, "an object with curves and ts, or with surfaces, us and vs");
+    using T = CurveTaskReader;
+    static constexpr std::array<Cursor::Member<T>, 5> table = {{{"curves", &T::sample_curves},
+                                                                {"ts", &T::sample_ts},
+                                                                {"surfaces", &T::sample_surfaces},
+                                                                {"us", &T::sample_us},
+                                                                {"vs", &T::sample_vs}}};
+    std::bitset<5> seen;
     if (!cursor_.read_members(object, table, *this, seen)) return false;
-    if (!seen[1]) return cursor_.fail(ErrorCode::missing_field, "samples need parameters", {"ts"});
-    if (!seen[0]) task().sample_curves.assign(task().sample_ts.size(), 0);
-    if (task().sample_curves.size() == task().sample_ts.size()) return true;
-    return cursor_.fail(ErrorCode::wrong_length,
-                        "there are " + std::to_string(task().sample_curves.size()) + " curves for " +
-                            std::to_string(task().sample_ts.size()) + " ts; every parameter has a curve",
-                        {"curves"});
+    const bool of_curves = seen[0] || seen[1];
+    if (of_curves && (seen >> 2).any())
+      return cursor_.fail(ErrorCode::duplicate_field,
+                          "samples have ts on curves, or us and vs on surfaces; ask for one and then for "
+                          "the other",
+                          {seen[1] ? "ts" : "curves"});
+    task().on_surfaces = (seen >> 2).any();
+    if (task().on_surfaces) return check_surface_samples(seen[2], seen[3], seen[4]);
+    if (!seen[1])
+      return cursor_.fail(ErrorCode::missing_field, "samples need parameters: ts, or us and vs", {"ts"});
+    return check_count(seen[0], task().sample_curves, "curves", task().sample_ts, "ts");
   }
   bool sample_curves(Value value) { return read_indices(cursor_, value, task().sample_curves); }
   bool sample_ts(Value value) { return read_reals(cursor_, value, task().sample_ts); }
+  bool sample_surfaces(Value value) { return read_indices(cursor_, value, task().sample_surfaces); }
+  bool sample_us(Value value) { return read_reals(cursor_, value, task().sample_us); }
+  bool sample_vs(Value value) { return read_reals(cursor_, value, task().sample_vs); }
 
   bool derivatives(Value value) { return read_count(value, kMostDerivatives, task().derivatives); }
   bool frames(Value value) { return read_truth(value, task().frames); }
@@ -175,6 +198,40 @@ class CurveTaskReader {
     return true;
   }
 
+  void take_top() {
+    RefineRequest& request = out_.curves;
+    request.single_curve_at_top = !top_.surface;
+    request.single_surface_at_top = top_.surface.has_value();
+    if (top_.surface) {
+      request.surfaces.push_back(*std::move(top_.surface));
+      request.surface_forms.push_back(top_.form);
+    } else {
+      request.curves.push_back(std::move(top_.curves));
+      request.curve_forms.push_back(top_.form);
+    }
+  }
+
+  bool check_surface_samples(bool numbered, bool u, bool v) {
+    if (!u || !v)
+      return cursor_.fail(ErrorCode::missing_field, "samples on surfaces need us and vs", {u ? "vs" : "us"});
+    if (task().sample_us.size() != task().sample_vs.size())
+      return cursor_.fail(ErrorCode::wrong_length,
+                          "there are " + std::to_string(task().sample_us.size()) + " us and " +
+                              std::to_string(task().sample_vs.size()) + " vs; they go together",
+                          {"vs"});
+    return check_count(numbered, task().sample_surfaces, "surfaces", task().sample_us, "us");
+  }
+  // Whose parameters they are: numbers that were left out are 0.
+  bool check_count(bool given, std::vector<Index>& numbers, const char* of,
+                   const std::vector<double>& parameters, const char* name) {
+    if (!given) numbers.assign(parameters.size(), 0);
+    if (numbers.size() == parameters.size()) return true;
+    return cursor_.fail(ErrorCode::wrong_length,
+                        "there are " + std::to_string(numbers.size()) + ' ' + of + " for " +
+                            std::to_string(parameters.size()) + ' ' + name + "; every sample has one",
+                        {of});
+  }
+
   // Every member belongs to the tasks that are named here, and to no other.
   bool check_members(const std::bitset<kMembers>& seen) {
     struct Rule {
@@ -224,8 +281,44 @@ class CurveTaskReader {
   CurvesReader top_curve_;
 };
 
+Result<void> read_task(std::string_view body, const Limits& limits, CurveRequest& request) {
+  request.curves.input = Format::json;
+  return read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {
+    return CurveTaskReader(cursor, limits, request).read(object);
+  });
+}
+
 }  // namespace
+
+Result<RefineRequest> read_curve(std::string_view body, const Limits& limits) {
+  CurveRequest request;
+  if (auto done = read_task(body, limits, request); !done) return std::move(done).error();
+  return std::move(request.curves);
+}
+
 }  // namespace json
+
+namespace {
+
+Result<void> check_surfaces(const CurveRequest& request) {
+  const CurveTaskKind kind = request.task.kind;
+  const RefineRequest& read = request.curves;
+  if (request.task.on_surfaces && request.task.derivatives > 2)
+    return Error{ErrorCode::out_of_range,
+                 "this is " + std::to_string(request.task.derivatives) +
+                     "; surfaces have derivatives of order 1 and 2",
+                 {"derivatives"},
+                 0,
+                 0};
+  if (read.surfaces.empty() || kind == CurveTaskKind::refine || kind == CurveTaskKind::evaluate) return {};
+  return Error{ErrorCode::unsupported,
+               "this request takes curves; surfaces are refined and evaluated",
+               {read.single_surface_at_top ? "type" : "surfaces"},
+               0,
+               0};
+}
+
+}  // namespace
 
 Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
                                    const Limits& limits) {
@@ -238,17 +331,14 @@ Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, co
                  limits.max_body_bytes};
   CurveRequest request;
   request.task.kind = kind;
-  request.curves.input = Format::json;
-  const auto done = json::read_document(body, [&](json::Cursor& cursor, simdjson::ondemand::object object) {
-    return json::CurveTaskReader(cursor, limits, request).read(object);
-  });
-  if (!done) return done.error();
+  if (auto done = json::read_task(body, limits, request); !done) return std::move(done).error();
   if (kind != CurveTaskKind::refine && !query.empty())
     return Error{
         ErrorCode::unknown_field, "this request takes no query parameters", {"?" + query[0].first}, 0, 0};
   if (auto set = set_parameters(request.curves.options, query); !set) return set.error();
   if (auto fine = check_options(request.curves.options, limits, query); !fine) return fine.error();
   if (auto fine = prepare(request.curves); !fine) return fine.error();
+  if (auto fine = check_surfaces(request); !fine) return fine.error();
   return request;
 }
 

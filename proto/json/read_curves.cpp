@@ -10,14 +10,14 @@
 namespace subdivd::proto::json {
 namespace {
 
-constexpr std::array<std::string_view, 3> kTypes = {"cubic", "linear", "nurbs"};
-enum class Type { cubic, linear, nurbs };
+constexpr std::array<std::string_view, 4> kTypes = {"cubic", "linear", "nurbs", "bsplineSurface"};
+enum class Type { cubic, linear, nurbs, surface };
 
 }  // namespace
 
-const std::array<Cursor::Member<CurvesReader>, CurvesReader::kMembers>& CurvesReader::members() {
+const std::array<CurvesReader::Member, CurvesReader::kMembers>& CurvesReader::members() {
   using C = CurvesReader;
-  static constexpr std::array<Cursor::Member<C>, kMembers> table = {{
+  static constexpr std::array<Member, kMembers> table = {{
       {"name", &C::name},
       {"type", &C::type},
       {"basis", &C::basis},
@@ -37,6 +37,29 @@ const std::array<Cursor::Member<CurvesReader>, CurvesReader::kMembers>& CurvesRe
   return table;
 }
 
+const std::array<CurvesReader::Member, CurvesReader::kSurfaceMembers>& CurvesReader::surface_members() {
+  using C = CurvesReader;
+  static constexpr std::array<Member, kSurfaceMembers> table = {{
+      {"name", &C::name},
+      {"type", &C::type},
+      {"degree", &C::degree},
+      {"wrap", &C::wrap},
+      {"points", &C::points},
+      {"uVertexCount", &C::u_vertex_count},
+      {"vVertexCount", &C::v_vertex_count},
+      {"uDegree", &C::u_degree},
+      {"vDegree", &C::v_degree},
+      {"uWrap", &C::u_wrap},
+      {"vWrap", &C::v_wrap},
+      {"faceVertexCounts", &C::face_vertex_counts},
+      {"faceVertexIndices", &C::face_vertex_indices},
+      {"normals", &C::normals},
+  }};
+  return table;
+}
+
+void CurvesReader::expect_surface() { type_ = static_cast<std::size_t>(Type::surface); }
+
 bool CurvesReader::name(Value value) { return cursor_.read_string(value, out_.curves.name); }
 
 bool CurvesReader::type(Value value) { return read_word(value, kTypes, type_); }
@@ -46,33 +69,26 @@ bool CurvesReader::basis(Value value) {
   std::size_t word = 0;
   if (!cursor_.read_word(value, basis_words(), word)) return false;
   out_.curves.basis = static_cast<CurveBasis>(word);
-  return given(Member::basis);
+  return given(Part::basis);
 }
 
 bool CurvesReader::degree(Value value) {
-  return read_whole_number(cursor_, value, out_.curves.degree) && given(Member::degree);
+  return read_whole_number(cursor_, value, out_.curves.degree) && given(Part::degree);
 }
 
-bool CurvesReader::wrap(Value value) {
-  std::size_t word = 0;
-  if (!cursor_.read_word(value, wrap_words(), word)) return false;
-  out_.curves.wrap = static_cast<CurveWrap>(word);
-  return given(Member::wrap);
-}
+bool CurvesReader::wrap(Value value) { return read_wrap(value, out_.curves.wrap) && given(Part::wrap); }
 
 bool CurvesReader::tension(Value value) {
-  return read_number(value, out_.curves.tension) && given(Member::tension);
+  return read_number(value, out_.curves.tension) && given(Part::tension);
 }
 
-bool CurvesReader::ratio(Value value) {
-  return read_number(value, out_.curves.ratio) && given(Member::ratio);
-}
+bool CurvesReader::ratio(Value value) { return read_number(value, out_.curves.ratio) && given(Part::ratio); }
 
 bool CurvesReader::spacing(Value value) {
   std::size_t word = 0;
   if (!cursor_.read_word(value, spacing_words(), word)) return false;
   out_.curves.spacing = static_cast<Spacing>(word);
-  return given(Member::spacing);
+  return given(Part::spacing);
 }
 
 bool CurvesReader::points(Value value) {
@@ -91,7 +107,7 @@ bool CurvesReader::points(Value value) {
 }
 
 bool CurvesReader::curve_vertex_counts(Value value) {
-  return read_indices(cursor_, value, out_.curves.vertex_counts);
+  return read_indices(cursor_, value, out_.curves.vertex_counts) && given(Part::vertex_counts);
 }
 
 // One for all curves, as a number, or one for each.
@@ -105,22 +121,20 @@ bool CurvesReader::order(Value value) {
     if (!read_whole_number(cursor_, value, one)) return false;
     out_.curves.orders = {one};
   }
-  return given(Member::order);
+  return given(Part::order);
 }
 
-bool CurvesReader::knots(Value value) {
-  return read_numbers(value, out_.curves.knots) && given(Member::knots);
-}
+bool CurvesReader::knots(Value value) { return read_numbers(value, out_.curves.knots) && given(Part::knots); }
 
 bool CurvesReader::ranges(Value value) {
   Tuples tuples;
   if (!read_tuples(cursor_, value, 2, 2, "range", tuples)) return false;
   out_.curves.ranges = std::move(tuples.values);
-  return given(Member::ranges);
+  return given(Part::ranges);
 }
 
 bool CurvesReader::point_weights(Value value) {
-  return read_numbers(value, out_.curves.weights) && given(Member::point_weights);
+  return read_numbers(value, out_.curves.weights) && given(Part::point_weights);
 }
 
 bool CurvesReader::tangents(Value value) {
@@ -129,40 +143,129 @@ bool CurvesReader::tangents(Value value) {
   return read_tuples(cursor_, value, 0, kMaxCurveWidth, "tangent", unused);
 }
 
-// What belongs to one kind of curve may not stand at another: it would be ignored.
+bool CurvesReader::u_vertex_count(Value value) {
+  return read_whole_number(cursor_, value, surface_.u_count) && given(Part::u_count);
+}
+
+bool CurvesReader::v_vertex_count(Value value) {
+  return read_whole_number(cursor_, value, surface_.v_count) && given(Part::v_count);
+}
+
+bool CurvesReader::u_degree(Value value) {
+  return read_whole_number(cursor_, value, surface_.u_degree) && given(Part::u_degree);
+}
+
+bool CurvesReader::v_degree(Value value) {
+  return read_whole_number(cursor_, value, surface_.v_degree) && given(Part::v_degree);
+}
+
+bool CurvesReader::u_wrap(Value value) { return read_wrap(value, surface_.u_wrap) && given(Part::u_wrap); }
+
+bool CurvesReader::v_wrap(Value value) { return read_wrap(value, surface_.v_wrap) && given(Part::v_wrap); }
+
+// Members of an answer, which is a valid request: faces of a surface follow from its counts.
+bool CurvesReader::face_vertex_counts(Value value) {
+  std::vector<Index> unused;
+  return read_indices(cursor_, value, unused) && given(Part::faces);
+}
+
+bool CurvesReader::face_vertex_indices(Value value) {
+  Lists unused;
+  return read_lists(cursor_, value, "face", unused) && given(Part::faces);
+}
+
+bool CurvesReader::normals(Value value) {
+  Tuples unused;
+  return read_tuples(cursor_, value, 3, 3, "normal", unused) && given(Part::normals);
+}
+
 bool CurvesReader::finish() {
-  if (!has_points_) return cursor_.fail(ErrorCode::missing_field, "a curve needs points", {"points"});
-  ControlCurves& curves = out_.curves;
-  const bool on_knots = type_ == static_cast<std::size_t>(Type::nurbs);
-  if (on_knots) curves.basis = CurveBasis::nurbs;
+  const bool surface = type_ == static_cast<std::size_t>(Type::surface);
+  if (!has_points_)
+    return cursor_.fail(ErrorCode::missing_field, surface ? "a surface needs points" : "a curve needs points",
+                        {"points"});
+  if (type_ == static_cast<std::size_t>(Type::nurbs)) out_.curves.basis = CurveBasis::nurbs;
+  if (!check_members()) return false;
+  return surface ? settle_surface() : settle_type();
+}
+
+// What belongs to one kind may not stand at another: it would be ignored.
+bool CurvesReader::check_members() {
+  const ControlCurves& curves = out_.curves;
+  const bool surface = type_ == static_cast<std::size_t>(Type::surface);
+  const bool on_knots = curves.basis == CurveBasis::nurbs;
   const bool is_bspline = curves.basis == CurveBasis::bspline;
   struct Rule {
-    Member member;
+    Part part;
     const char *name, *belongs_to;
     bool fits;
   };
-  const std::array<Rule, 10> rules = {{
-      {Member::basis, "basis", "type \"cubic\" or \"linear\"", !on_knots},
-      {Member::wrap, "wrap", "type \"cubic\" or \"linear\"", !on_knots},
-      {Member::degree, "degree", "basis \"bspline\"", is_bspline},
-      {Member::tension, "tension", "basis \"fourPoint\"", curves.basis == CurveBasis::four_point},
-      {Member::ratio, "ratio", "basis \"cornerCutting\"", curves.basis == CurveBasis::corner_cutting},
-      {Member::spacing, "spacing", "basis \"catmullRom\"", curves.basis == CurveBasis::catmull_rom},
-      {Member::order, "order", "type \"nurbs\"", on_knots},
-      {Member::knots, "knots", "type \"nurbs\"", on_knots},
-      {Member::ranges, "ranges", "type \"nurbs\"", on_knots},
-      {Member::point_weights, "pointWeights", "type \"nurbs\"", on_knots},
+  constexpr const char* of_surface = "type \"bsplineSurface\"";
+  const std::array<Rule, static_cast<std::size_t>(Part::count)> rules = {{
+      {Part::basis, "basis", "type \"cubic\" or \"linear\"", !on_knots && !surface},
+      {Part::wrap, "wrap", "type \"cubic\" or \"linear\"", !on_knots},
+      {Part::degree, "degree", "basis \"bspline\"", is_bspline},
+      {Part::tension, "tension", "basis \"fourPoint\"", curves.basis == CurveBasis::four_point},
+      {Part::ratio, "ratio", "basis \"cornerCutting\"", curves.basis == CurveBasis::corner_cutting},
+      {Part::spacing, "spacing", "basis \"catmullRom\"", curves.basis == CurveBasis::catmull_rom},
+      {Part::order, "order", "type \"nurbs\"", on_knots},
+      {Part::knots, "knots", "type \"nurbs\"", on_knots},
+      {Part::ranges, "ranges", "type \"nurbs\"", on_knots},
+      {Part::point_weights, "pointWeights", "type \"nurbs\"", on_knots},
+      {Part::vertex_counts, "curveVertexCounts", "curves", !surface},
+      {Part::u_count, "uVertexCount", of_surface, surface},
+      {Part::v_count, "vVertexCount", of_surface, surface},
+      {Part::u_degree, "uDegree", of_surface, surface},
+      {Part::v_degree, "vDegree", of_surface, surface},
+      {Part::u_wrap, "uWrap", of_surface, surface},
+      {Part::v_wrap, "vWrap", of_surface, surface},
+      {Part::faces, "faceVertexIndices", of_surface, surface},
+      {Part::normals, "normals", of_surface, surface},
   }};
   for (const Rule& rule : rules)
-    if (is_given(rule.member) && !rule.fits)
-      return cursor_.fail(
-          ErrorCode::unknown_field,
-          std::string(rule.name) + " belongs to " + rule.belongs_to + ", which this curve is not",
-          {rule.name});
-  if (on_knots && !(is_given(Member::order) && is_given(Member::knots)))
+    if (is_given(rule.part) && !rule.fits)
+      return cursor_.fail(ErrorCode::unknown_field,
+                          std::string(rule.name) + " belongs to " + rule.belongs_to + ", which this is not",
+                          {rule.name});
+  if (on_knots && !(is_given(Part::order) && is_given(Part::knots)))
     return cursor_.fail(ErrorCode::missing_field, "a curve of type \"nurbs\" needs order and knots",
-                        {is_given(Member::order) ? "knots" : "order"});
-  return settle_type();
+                        {is_given(Part::order) ? "knots" : "order"});
+  return true;
+}
+
+// One of the two counts follows from the other.
+bool CurvesReader::settle_surface() {
+  ControlCurves& read = out_.curves;
+  surface_.name = std::move(read.name);
+  surface_.width = read.width;
+  surface_.points = std::move(read.points);
+  const Count points = surface_.points.size() / surface_.width;
+  const auto infer = [&](Index known, Index& unknown) {
+    if (known > 0 && points % known == 0) unknown = static_cast<Index>(points / known);
+  };
+  if (!is_given(Part::u_count) && !is_given(Part::v_count))
+    return cursor_.fail(ErrorCode::missing_field,
+                        "a surface needs uVertexCount, how many points there are in a row", {"uVertexCount"});
+  if (!is_given(Part::v_count)) infer(surface_.u_count, surface_.v_count);
+  if (!is_given(Part::u_count)) infer(surface_.v_count, surface_.u_count);
+  if (!(surface_.u_count > 0 && surface_.v_count > 0) || Count{surface_.u_count} * surface_.v_count != points)
+    return cursor_.fail(
+        ErrorCode::wrong_length,
+        "there are " + std::to_string(points) + " points, which are no rows of " +
+            std::to_string(surface_.u_count) + " points" +
+            (is_given(Part::v_count) ? ", " + std::to_string(surface_.v_count) + " rows" : std::string()),
+        {"points"});
+  // One degree or wrap for both directions, unless a direction has its own.
+  if (is_given(Part::degree)) {
+    if (!is_given(Part::u_degree)) surface_.u_degree = read.degree;
+    if (!is_given(Part::v_degree)) surface_.v_degree = read.degree;
+  }
+  if (is_given(Part::wrap)) {
+    if (!is_given(Part::u_wrap)) surface_.u_wrap = read.wrap;
+    if (!is_given(Part::v_wrap)) surface_.v_wrap = read.wrap;
+  }
+  out_.surface = std::move(surface_);
+  return true;
 }
 
 // "cubic" and "linear" say the degree of a B-spline, too.
@@ -175,7 +278,7 @@ bool CurvesReader::settle_type() {
                         {"basis"});
   if (curves.basis != CurveBasis::bspline) return true;
   const Index degree = linear ? 1 : 3;
-  if (is_given(Member::degree) && curves.degree != degree)
+  if (is_given(Part::degree) && curves.degree != degree)
     return cursor_.fail(ErrorCode::out_of_range,
                         "the type says degree " + std::to_string(degree) + "; leave out one of the two",
                         {"degree"});
@@ -188,6 +291,13 @@ bool CurvesReader::read_word(Value value, std::span<const std::string_view> word
   std::size_t word = 0;
   if (!cursor_.read_word(value, words, word)) return false;
   out = word;
+  return true;
+}
+
+bool CurvesReader::read_wrap(Value value, CurveWrap& out) {
+  std::size_t word = 0;
+  if (!cursor_.read_word(value, wrap_words(), word)) return false;
+  out = static_cast<CurveWrap>(word);
   return true;
 }
 
@@ -204,7 +314,22 @@ bool read_curves(Cursor& cursor, Value value, CurvesRead& out) {
   if (value.get_object().get(object)) return cursor.fail_type(value, "a curve, an object");
   CurvesReader reader(cursor, out);
   std::bitset<CurvesReader::kMembers> seen;
-  return cursor.read_members(object, CurvesReader::members(), reader, seen) && reader.finish();
+  if (!cursor.read_members(object, CurvesReader::members(), reader, seen) || !reader.finish()) return false;
+  return !out.surface || cursor.fail(ErrorCode::wrong_type,
+                                     "a surface belongs into surfaces, not among the curves", {"type"});
+}
+
+bool read_surface(Cursor& cursor, Value value, CurvesRead& out) {
+  simdjson::ondemand::object object;
+  if (value.get_object().get(object)) return cursor.fail_type(value, "a surface, an object");
+  CurvesReader reader(cursor, out);
+  reader.expect_surface();
+  std::bitset<CurvesReader::kSurfaceMembers> seen;
+  if (!cursor.read_members(object, CurvesReader::surface_members(), reader, seen) || !reader.finish())
+    return false;
+  return out.surface ||
+         cursor.fail(ErrorCode::wrong_type,
+                     "a surface has the type \"bsplineSurface\"; curves belong into curves", {"type"});
 }
 
 }  // namespace subdivd::proto::json

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/curves/control_curve.h"
+#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "proto/json/arrays.h"
 #include "proto/json/cursor.h"
@@ -24,8 +25,9 @@ struct MeshRead {
 
 struct CurvesRead {
   ControlCurves curves;
-  ArrayForm form = ArrayForm::nested;
-  bool had_tangents = false;  // they are not used
+  std::optional<ControlPatch> surface;  // of type "bsplineSurface"; `curves` is empty then
+  ArrayForm form = ArrayForm::nested;   // of the points
+  bool had_tangents = false;            // they are not used
 };
 
 // Reads the members of a mesh one by one, in any order; finish() settles what depends on several of them.
@@ -63,13 +65,18 @@ class MeshReader {
   bool has_points_ = false, has_faces_ = false, has_counts_ = false, has_lengths_ = false;
 };
 
-// The same for a set of curves.
+// The same for a set of curves, or for a surface: their type says which of the two they are.
 class CurvesReader {
  public:
   CurvesReader(Cursor& cursor, CurvesRead& out) : cursor_(cursor), out_(out) {}
 
-  static constexpr std::size_t kMembers = 15;
-  static const std::array<Cursor::Member<CurvesReader>, kMembers>& members();
+  using Member = Cursor::Member<CurvesReader>;
+  static constexpr std::size_t kMembers = 15, kSurfaceMembers = 14;
+  static const std::array<Member, kMembers>& members();
+  static const std::array<Member, kSurfaceMembers>& surface_members();
+
+  // It is a surface, whatever stands in it or not.
+  void expect_surface();
 
   // To be called standing in the curves, after the last member.
   bool finish();
@@ -89,17 +96,50 @@ class CurvesReader {
   bool ranges(Value value);
   bool point_weights(Value value);
   bool tangents(Value value);
+  bool u_vertex_count(Value value);
+  bool v_vertex_count(Value value);
+  bool u_degree(Value value);
+  bool v_degree(Value value);
+  bool u_wrap(Value value);
+  bool v_wrap(Value value);
+  bool face_vertex_counts(Value value);
+  bool face_vertex_indices(Value value);
+  bool normals(Value value);
 
  private:
   // Those that belong to some kinds of curves only.
-  enum class Member { basis, degree, wrap, tension, ratio, spacing, order, knots, ranges, point_weights };
-  bool given(Member member) {
-    given_.set(static_cast<std::size_t>(member));
+  enum class Part {
+    basis,
+    degree,
+    wrap,
+    tension,
+    ratio,
+    spacing,
+    order,
+    knots,
+    ranges,
+    point_weights,
+    vertex_counts,
+    u_count,
+    v_count,
+    u_degree,
+    v_degree,
+    u_wrap,
+    v_wrap,
+    faces,
+    normals,
+    count
+  };
+  bool given(Part part) {
+    given_.set(static_cast<std::size_t>(part));
     return true;
   }
-  bool is_given(Member member) const { return given_[static_cast<std::size_t>(member)]; }
+  bool is_given(Part part) const { return given_[static_cast<std::size_t>(part)]; }
+  bool check_members();
   bool settle_type();
+  bool settle_surface();
   bool read_word(Value value, std::span<const std::string_view> words, std::optional<std::size_t>& out);
+  bool read_wrap(Value value, CurveWrap& out);
   bool read_number(Value value, double& out);
   bool read_numbers(Value value, std::vector<double>& out);
 
@@ -107,10 +147,12 @@ class CurvesReader {
   CurvesRead& out_;
   bool has_points_ = false;
   std::optional<std::size_t> type_;
-  std::bitset<10> given_;
+  ControlPatch surface_;  // what of it has been read
+  std::bitset<static_cast<std::size_t>(Part::count)> given_;
 };
 
 bool read_mesh(Cursor& cursor, Value value, MeshRead& out);
 bool read_curves(Cursor& cursor, Value value, CurvesRead& out);
+bool read_surface(Cursor& cursor, Value value, CurvesRead& out);
 
 }  // namespace subdivd::proto::json

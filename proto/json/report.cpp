@@ -42,7 +42,7 @@ Json deviation_json(const oracle::Deviation& deviation, const std::vector<Index>
   return json;
 }
 
-// A MeshReport or a CurveReport.
+// A MeshReport, a CurveReport or a SurfaceReport.
 template <class One>
 Json one_report(const One& one, const std::vector<Index>& faces) {
   Json json;
@@ -54,11 +54,12 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
     Json deviations = Json::array();
     for (const oracle::Deviation& deviation : level.deviations)
       deviations.push_back(deviation_json(deviation, faces));
-    json["levels"].push_back({{"level", level.level},
-                              {"connectivityIdentical", level.connectivity_identical},
-                              {"vertices", level.vertices},
-                              {"triangles", level.triangles},
-                              {"deviations", std::move(deviations)}});
+    json["levels"].push_back(
+        {{"level", level.level},
+         {"connectivityIdentical", level.connectivity_identical},
+         {"vertices", level.vertices},
+         {level.quads > 0 ? "quads" : "triangles", level.quads > 0 ? level.quads : level.triangles},
+         {"deviations", std::move(deviations)}});
   }
   if (!one.remarks.empty()) json["remarks"] = one.remarks;
   return json;
@@ -74,6 +75,8 @@ std::string report(const oracle::Report& report, const RefineRequest* request) {
     json["meshes"].push_back(one_report(report.meshes[i], moved ? request->face_origins[i] : kSame));
   }
   for (const oracle::CurveReport& curve : report.curves) json["curves"].push_back(one_report(curve, kSame));
+  for (const oracle::SurfaceReport& surface : report.surfaces)
+    json["surfaces"].push_back(one_report(surface, kSame));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -30,6 +30,7 @@ class AnswerWriter {
       }
       text_.close(']');
     }
+    write_surfaces();
     if (error_) return *error_;
     if (envelope != "{}") text_.separate();
     text_.raw(envelope.substr(1));  // the rest of an object, closing brace included
@@ -45,7 +46,7 @@ class AnswerWriter {
       write_mesh(0);
       return;
     }
-    if (answer_.meshes.empty() && !answer_.curves.empty()) return;
+    if (answer_.meshes.empty() && !(answer_.curves.empty() && answer_.surfaces.empty())) return;
     text_.key("meshes");
     text_.open('[');
     for (std::size_t i = 0; i < answer_.meshes.size() && !error_; ++i) {
@@ -91,12 +92,52 @@ class AnswerWriter {
     text_.close('}');
   }
 
+  void write_surfaces() {
+    if (request_.single_surface_at_top && answer_.surfaces.size() == 1) return write_surface(0);
+    if (answer_.surfaces.empty()) return;
+    text_.key("surfaces");
+    text_.open('[');
+    for (std::size_t i = 0; i < answer_.surfaces.size() && !error_; ++i) {
+      text_.separate();
+      text_.open('{');
+      write_surface(i);
+      text_.close('}');
+    }
+    text_.close(']');
+  }
+
+  void write_surface(std::size_t i) {
+    RefinedPatch<Real>& surface = answer_.surfaces[i];
+    const ControlPatch& control = request_.surfaces[i];
+    const ArrayForm form = form_of(surface.width, request_.surface_forms, i);
+    word("name", surface.name, !surface.name.empty());
+    word("type", "bsplineSurface");
+    number("uVertexCount", surface.u_count);
+    number("vVertexCount", surface.v_count);
+    number("uDegree", control.u_degree);
+    number("vDegree", control.v_degree);
+    word("uWrap", word_of(surface.u_wrap));
+    word("vWrap", word_of(surface.v_wrap));
+    array(chosen(surface.points, surface.limit_points), "points", surface.width, form, i, "surfaces");
+    // Faces of a body without counts are triangles.
+    if (surface.corners_per_face == 4) {
+      text_.key("faceVertexCounts");
+      text_.indices(Buffer<Index>(surface.faces.size() / 4, 4), 1, ArrayForm::flat);
+    }
+    text_.key("faceVertexIndices");
+    text_.indices(std::exchange(surface.faces, {}), surface.corners_per_face, ArrayForm::flat);
+    if (!surface.normals.empty())
+      array(std::exchange(surface.normals, {}), "normals", 3, form, i, "surfaces");
+  }
+
+  // A flat array would be read back as points of three numbers.
+  static ArrayForm form_of(Index width, const std::vector<ArrayForm>& forms, std::size_t i) {
+    return width != 3 || i >= forms.size() ? ArrayForm::nested : forms[i];
+  }
+
   void write_curves(std::size_t i) {
     RefinedCurves<Real>& curves = answer_.curves[i];
-    // A flat array would be read back as points of three numbers.
-    const bool nested =
-        curves.width != 3 || i >= request_.curve_forms.size() || request_.curve_forms[i] == ArrayForm::nested;
-    const ArrayForm form = nested ? ArrayForm::nested : ArrayForm::flat;
+    const ArrayForm form = form_of(curves.width, request_.curve_forms, i);
     word("name", curves.name, !curves.name.empty());
     write_kind(curves);
     array(chosen(curves.points, curves.limit_points), "points", curves.width, form, i, "curves");
@@ -174,7 +215,8 @@ class AnswerWriter {
                    0,
                    0};
     const bool top = request_.single_mesh_at_top && std::string_view(of) == "meshes";
-    if (!top && !request_.single_curve_at_top) error_->where = {of, std::uint64_t{number}};
+    if (!top && !request_.single_curve_at_top && !request_.single_surface_at_top)
+      error_->where = {of, std::uint64_t{number}};
   }
 
   const RefineRequest& request_;

@@ -45,8 +45,9 @@ Json convergence_of(const Convergence& convergence) {
 
 Json measure_of(const CurveMeasure& measure, Count width) {
   Json json;
-  json["length"] = length_of(measure.length);
-  json["bounds"] = {{"low", numbers(measure.box.low)}, {"high", numbers(measure.box.high)}};
+  if (measure.length) json["length"] = length_of(*measure.length);
+  if (measure.box)
+    json["bounds"] = {{"low", numbers(measure.box->low)}, {"high", numbers(measure.box->high)}};
   for (const ClosestPoint& point : measure.closest)
     json["closest"].push_back(
         {{"t", point.parameter}, {"point", numbers(point.point)}, {"distance", point.distance}});
@@ -80,6 +81,25 @@ Payload encode_samples(const CurveRequest& request, const CurveSamples& samples)
     direction("binormals", &FrenetFrame::binormal);
     json["curvatures"].push_back(optional_number(samples.curvatures[k]));
     json["torsions"].push_back(optional_number(samples.torsions[k]));
+  }
+  return payload_of(request, {{"samples", std::move(json)}});
+}
+
+Payload encode_samples(const CurveRequest& request, const SurfaceSamples& samples) {
+  const CurveTask& task = request.task;
+  Json json = {{"surfaces", task.sample_surfaces},
+               {"us", numbers(task.sample_us)},
+               {"vs", numbers(task.sample_vs)},
+               {"points", Json::array()}};
+  for (Index order = 1; order <= task.derivatives; ++order) json["derivatives"].push_back(Json::array());
+  for (const PatchSample<double>& sample : samples.samples) {
+    json["points"].push_back(numbers(sample.point));
+    if (task.derivatives >= 1) json["derivatives"][0].push_back({numbers(sample.du), numbers(sample.dv)});
+    if (task.derivatives >= 2)
+      json["derivatives"][1].push_back({numbers(sample.duu), numbers(sample.duv), numbers(sample.dvv)});
+    if (!task.frames) continue;
+    const bool exists = sample.normal != std::array<double, 3>{};
+    json["normals"].push_back(exists ? numbers(sample.normal) : Json(nullptr));
   }
   return payload_of(request, {{"samples", std::move(json)}});
 }

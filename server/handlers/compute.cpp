@@ -35,6 +35,12 @@ Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "curves", i);
     answer.curves.push_back(std::move(refined).value());
   }
+  for (std::size_t i = 0; i < request.surfaces.size(); ++i) {
+    const ControlPatch& surface = request.surfaces[i];
+    auto refined = refine<Real>(surface, proto::patch_options(request, surface), budget);
+    if (!refined) return proto::blame_input(request, std::move(refined).error(), "surfaces", i);
+    answer.surfaces.push_back(std::move(refined).value());
+  }
   return answer;
 }
 
@@ -53,9 +59,16 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
     if (!verified) return proto::blame_input(request, std::move(verified).error(), "curves", i);
     report.curves.push_back(std::move(verified).value());
   }
+  for (std::size_t i = 0; i < request.surfaces.size(); ++i) {
+    const ControlPatch& surface = request.surfaces[i];
+    auto verified = oracle::verify<Real>(surface, proto::patch_options(request, surface), budget);
+    if (!verified) return proto::blame_input(request, std::move(verified).error(), "surfaces", i);
+    report.surfaces.push_back(std::move(verified).value());
+  }
   const auto passed = [](const auto& part) { return part.passed; };
   report.passed = std::all_of(report.meshes.begin(), report.meshes.end(), passed) &&
-                  std::all_of(report.curves.begin(), report.curves.end(), passed);
+                  std::all_of(report.curves.begin(), report.curves.end(), passed) &&
+                  std::all_of(report.surfaces.begin(), report.surfaces.end(), passed);
   return report;
 }
 

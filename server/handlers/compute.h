@@ -8,12 +8,12 @@
 
 namespace subdivd::server {
 
-// Refines every mesh and curve, in the precision of the answer; with the report when the options ask for it.
-// `timings` holds what is known so far; the answer's timings continue it.
+// Refines every mesh, curve and surface, in the precision of the answer; with the report when the options ask
+// for it. `timings` holds what is known so far; the answer's timings continue it.
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
                                             const proto::Timings& timings);
 
-// Our core against OpenSubdiv, for every mesh and curve of the request.
+// Our core against OpenSubdiv, for every mesh, curve and surface of the request.
 Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget);
 
 }  // namespace subdivd::server

@@ -9,10 +9,12 @@
 #include "core/curves/bspline.h"
 #include "core/curves/degree.h"
 #include "core/curves/edit.h"
+#include "core/curves/flatten_subdivided.h"
 #include "core/curves/knot_insertion.h"
 #include "core/curves/knot_removal.h"
 #include "core/curves/piecewise.h"
 #include "proto/prepare.h"
+#include "server/handlers/drawn_curve.h"
 
 namespace subdivd::server {
 namespace {
@@ -20,7 +22,6 @@ namespace {
 using proto::CurveForm;
 using proto::CurveMeasure;
 using proto::CurveRequest;
-using proto::CurveSamples;
 using proto::CurveTask;
 using proto::CurveTaskKind;
 using proto::EditedCurves;
@@ -51,6 +52,9 @@ Count growth(CurveBasis basis, const CurveTask& task) {
 Count numbers_of(const CurveRequest& request) {
   const CurveTask& task = request.task;
   Count numbers = 0;
+  // A point, five derivatives, a normal and what says where.
+  for (const ControlPatch& surface : request.curves.surfaces)
+    numbers = std::max(numbers, task.sample_us.size() * (Count{6} * surface.width + 6));
   for (const ControlCurves& curves : request.curves.curves) {
     const Count points = curves.point_count(), count = curves.curve_count();
     const Count width = curves.width + 2;  // weight and knot
@@ -77,55 +81,22 @@ Count numbers_of(const CurveRequest& request) {
   return numbers;
 }
 
-// --- Splines of a request
-// -----------------------------------------------------------------------------------
+// --- Curves of a request ----------------------------------------------------------------------------------
 
-// Calls work(spline, curves, of_set) for every curve, in the order of the body; the first error is blamed on
-// its set of curves.
-template <class Work>
-Result<void> for_each_spline(const CurveRequest& request, const Budget& budget, Work&& work) {
+// Calls work(curve, set, ordinal) for what make(curves, ordinal, place) makes of every curve, in the order of
+// the body; what cannot be made is blamed on its set of curves.
+template <class Make, class Work>
+Result<void> for_each_curve(const CurveRequest& request, const Budget& budget, Make&& make, Work&& work) {
   for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
     const ControlCurves& curves = request.curves.curves[i];
     CurvePlace place;
     for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
       if (auto stop = budget.poll()) return *stop;
-      auto spline = spline_of(curves, c, place);
-      if (!spline) return proto::blame_input(request.curves, std::move(spline).error(), "curves", i);
-      if (auto done = work(*std::move(spline), i, c); !done) return done;
+      auto curve = make(curves, c, place);
+      if (!curve) return proto::blame_input(request.curves, std::move(curve).error(), "curves", i);
+      if (auto done = work(*std::move(curve), i, c); !done) return done;
     }
   }
-  return {};
-}
-
-// --- Evaluation -------------------------------------------------------------------------------------------
-
-struct Located {
-  std::size_t set;
-  Count curve;
-  CurvePlace place;
-};
-
-std::vector<Located> all_curves(const CurveRequest& request) {
-  std::vector<Located> all;
-  for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
-    const std::vector<CurvePlace> places = curve_places(request.curves.curves[i]);
-    for (Count c = 0; c < places.size(); ++c) all.push_back({i, c, places[c]});
-  }
-  return all;
-}
-
-Result<void> describe(const Spline& spline, double t, std::span<const double> rows, CurveSamples& samples) {
-  const Index dimension = spline.dimension();
-  std::vector<double> noise;
-  if (auto known = derivative_noise(spline, t, 3)) noise = *std::move(known);
-  const auto plain = rows.first(4 * std::size_t{dimension});
-  auto frame = frenet_frame(plain, dimension, noise);
-  if (!frame)  // a tangent at least
-    if (auto tangent = unit_tangent(plain, dimension, noise))
-      frame = FrenetFrame{*std::move(tangent), {}, {}};
-  samples.frames.push_back(std::move(frame));
-  samples.curvatures.push_back(curvature(plain, dimension, noise));
-  samples.torsions.push_back(dimension == 3 ? torsion(plain, noise) : std::nullopt);
   return {};
 }
 
@@ -141,46 +112,6 @@ Result<Count> predict_curve_task(const CurveRequest& request, Count most) {
                {},
                numbers * kTextOfNumber,
                most};
-}
-
-Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
-  const CurveTask& task = request.task;
-  const std::vector<Located> all = all_curves(request);
-  CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
-  const Index order = task.frames ? std::max<Index>(task.derivatives, 3) : task.derivatives;
-  std::vector<std::optional<Spline>> splines(all.size());  // of the curves that have been asked for
-  constexpr std::size_t kSamplesPerPoll = 256;
-  for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
-    if (k % kSamplesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    const Index number = task.sample_curves[k];
-    if (number >= all.size())
-      return Error{
-          ErrorCode::out_of_range,
-          "there is no curve " + std::to_string(number) + "; the body has " + std::to_string(all.size()),
-          {"samples", "curves", std::uint64_t{k}},
-          0,
-          0};
-    std::optional<Spline>& spline = splines[number];
-    if (!spline) {
-      auto made = spline_of(request.curves.curves[all[number].set], all[number].curve, all[number].place);
-      if (!made)
-        return proto::blame_input(request.curves, std::move(made).error(), "curves", all[number].set);
-      spline = *std::move(made);
-    }
-    std::vector<double> rows((Count{order} + 1) * spline->dimension());
-    if (auto done = derivatives(*spline, task.sample_ts[k], order, rows); !done) {
-      Error error = std::move(done).error();
-      error.where = {"samples", "ts", std::uint64_t{k}};
-      return error;
-    }
-    if (task.frames)
-      if (auto done = describe(*spline, task.sample_ts[k], rows, samples); !done)
-        return std::move(done).error();
-    samples.widths.push_back(spline->dimension());
-    samples.rows.push_back(std::move(rows));
-  }
-  return samples;
 }
 
 // --- Measuring --------------------------------------------------------------------------------------------
@@ -204,6 +135,34 @@ Result<void> measure_closest(const Spline& spline, const CurveTask& task, const 
   return {};
 }
 
+// A spline or a subdivided curve.
+template <class Curve>
+Result<Polyline> flattened(const Curve& drawn, const ControlCurves& curves, Count curve,
+                           const CurveTask& task, const Budget& budget) {
+  const FlattenOptions options = {.tolerance = *task.flatten,
+                                  .max_points = most_polyline_points(curves.points_of_curve(curve))};
+  auto polyline = flatten(drawn, options, budget);
+  if (!polyline) return at_member(std::move(polyline).error(), "flatten");
+  return polyline;
+}
+
+// What has no formula has a polyline, and that only.
+Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve,
+                              const CurveTask& task, const Budget& budget) {
+  if (!task.flatten || task.equal_lengths || task.convergence || !task.closest_to.empty())
+    return Error{
+        ErrorCode::unsupported,
+        "this curve has no polynomial pieces: it has no length or box here, only a polyline (flatten)",
+        {"basis"},
+        0,
+        0};
+  CurveMeasure measure;
+  auto polyline = flattened(drawn, curves, curve, task, budget);
+  if (!polyline) return std::move(polyline).error();
+  measure.polyline = *std::move(polyline);
+  return measure;
+}
+
 Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve,
                               const CurveTask& task, const Budget& budget) {
   CurveMeasure measure;
@@ -218,11 +177,8 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
   measure.box = *std::move(box);
   if (auto done = measure_closest(spline, task, budget, measure); !done) return std::move(done).error();
   if (task.flatten) {
-    auto polyline = flatten(
-        spline,
-        {.tolerance = *task.flatten, .max_points = most_polyline_points(curves.points_of_curve(curve))},
-        budget);
-    if (!polyline) return at_member(std::move(polyline).error(), "flatten");
+    auto polyline = flattened(spline, curves, curve, task, budget);
+    if (!polyline) return std::move(polyline).error();
     measure.polyline = *std::move(polyline);
   }
   if (task.equal_lengths) {
@@ -245,14 +201,17 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
 
 Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, const Budget& budget) {
   std::vector<CurveMeasure> all;
-  const auto done = for_each_spline(
-      request, budget, [&](const Spline& spline, std::size_t set, Count curve) -> Result<void> {
-        auto one = measured(spline, request.curves.curves[set], curve, request.task, budget);
-        if (!one) return std::move(one).error();
-        all.push_back(*std::move(one));
-        return {};
-      });
-  if (!done) return done.error();
+  const auto measure = [&](const DrawnCurve& curve, std::size_t set, Count ordinal) -> Result<void> {
+    const ControlCurves& curves = request.curves.curves[set];
+    auto one = std::visit(
+        [&](const auto& drawn) { return measured(drawn, curves, ordinal, request.task, budget); }, curve);
+    if (!one && one.error().where == Path{"basis"})
+      return proto::blame_input(request.curves, std::move(one).error(), "curves", set);
+    if (!one) return std::move(one).error();
+    all.push_back(*std::move(one));
+    return {};
+  };
+  if (auto done = for_each_curve(request, budget, drawn, measure); !done) return std::move(done).error();
   return all;
 }
 
@@ -409,20 +368,22 @@ Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& b
     empty.basis = basis_of(form);
     all.answer.curves.push_back(std::move(empty));
   }
-  const auto done =
-      for_each_spline(request, budget, [&](const Spline& spline, std::size_t set, Count) -> Result<void> {
-        Count removed = 0;
-        auto changed = edited(spline, task, budget, removed);
-        if (!changed) return std::move(changed).error();
-        const double tolerance = task.tolerance.value_or(1e-10 * extent(spline));
-        auto points = points_in(form, changed->spline, tolerance, budget);
-        if (!points) return at_member(std::move(points).error(), "to");
-        append(changed->spline, *std::move(points), all.answer.curves[set]);
-        all.removed.push_back(removed);
-        all.error_bounds.push_back(changed->bound);
-        return {};
-      });
-  if (!done) return done.error();
+  const auto on_knots = [](const ControlCurves& curves, Count curve, CurvePlace place) {
+    return spline_of(curves, curve, place);
+  };
+  const auto edit = [&](const Spline& spline, std::size_t set, Count) -> Result<void> {
+    Count removed = 0;
+    auto changed = edited(spline, task, budget, removed);
+    if (!changed) return std::move(changed).error();
+    const double tolerance = task.tolerance.value_or(1e-10 * extent(spline));
+    auto points = points_in(form, changed->spline, tolerance, budget);
+    if (!points) return at_member(std::move(points).error(), "to");
+    append(changed->spline, *std::move(points), all.answer.curves[set]);
+    all.removed.push_back(removed);
+    all.error_bounds.push_back(changed->bound);
+    return {};
+  };
+  if (auto done = for_each_curve(request, budget, on_knots, edit); !done) return std::move(done).error();
   return all;
 }
 

@@ -13,7 +13,6 @@ namespace subdivd::server {
 // too_large over `most`, the bytes of an answer.
 Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most);
 
-Result<proto::CurveSamples> compute_samples(const proto::CurveRequest& request, const Budget& budget);
 Result<std::vector<proto::CurveMeasure>> compute_measures(const proto::CurveRequest& request,
                                                           const Budget& budget);
 // Insertion, removal and conversion: every curve of the request for itself.

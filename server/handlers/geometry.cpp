@@ -10,6 +10,7 @@
 #include "proto/schemes.h"
 #include "server/handlers/compute.h"
 #include "server/handlers/compute_curves.h"
+#include "server/handlers/compute_samples.h"
 #include "server/negotiation.h"
 #include "server/router.h"
 #include "server/status.h"
@@ -82,6 +83,11 @@ bool choose_format(const Request& request, proto::RefineRequest& decoded) {
 Result<proto::Payload> answer_curve_task(const proto::CurveRequest& request, const Budget& budget) {
   switch (request.task.kind) {
     case proto::CurveTaskKind::evaluate: {
+      if (request.task.on_surfaces) {
+        auto samples = compute_surface_samples(request, budget);
+        if (!samples) return std::move(samples).error();
+        return proto::encode_samples(request, *samples);
+      }
       auto samples = compute_samples(request, budget);
       if (!samples) return std::move(samples).error();
       return proto::encode_samples(request, *samples);

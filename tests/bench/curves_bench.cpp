@@ -11,6 +11,7 @@
 
 #include "core/base/buffer.h"
 #include "core/curves/bspline.h"
+#include "core/curves/local_subdivision.h"
 #include "core/curves/subdivision.h"
 
 namespace subdivd {
@@ -40,8 +41,10 @@ void refine_beside_memcpy(benchmark::State& state, Index degree) {
   curves.points = wave(static_cast<Count>(state.range(0)), 3);
   const CurveOptions options{.level = static_cast<Index>(state.range(1))};
   const Buffer<double> like = refine<double>(curves, options, {})->points;
-  // Both into memory that has just been got: pages are given out to the one as to the other.
-  std::vector<double> ours, copied;
+  // Both into memory that has just been got: pages are given out to the one as to the other. Beside it a copy
+  // into memory that is there already, which refine() has no way to be given.
+  std::vector<double> ours, copied, copied_again;
+  Buffer<double> there(like.size());
   for (auto _ : state) {
     ours.push_back(seconds([&] { benchmark::DoNotOptimize(refine<double>(curves, options, {})); }));
     copied.push_back(seconds([&] {
@@ -49,9 +52,14 @@ void refine_beside_memcpy(benchmark::State& state, Index degree) {
       std::memcpy(copy.data(), like.data(), like.size() * sizeof(double));
       benchmark::DoNotOptimize(copy.data());
     }));
+    copied_again.push_back(seconds([&] {
+      std::memcpy(there.data(), like.data(), like.size() * sizeof(double));
+      benchmark::DoNotOptimize(there.data());
+    }));
   }
   state.counters["ns"] = median(ours) * 1e9 / static_cast<double>(like.size() / 3);
   state.counters["times_memcpy"] = median(ours) / median(copied);
+  state.counters["times_warm_memcpy"] = median(ours) / median(copied_again);
 }
 
 // A cubic in space on uneven knots.
@@ -107,6 +115,20 @@ void evaluate_beside_all_functions(benchmark::State& state) {
   state.counters["ratio"] = naive / ours;
 }
 
+// Point and derivative at parameters of 52 bits.
+void evaluate_four_point(benchmark::State& state) {
+  ControlCurves curves;
+  curves.basis = CurveBasis::four_point;
+  curves.points = wave(1000, 3);
+  const SubdividedCurve curve = *subdivided_curve(curves, 0, {});
+  std::vector<double> rows(6);
+  double t = 0;
+  for (auto _ : state) {
+    t = std::fmod(t + 123.45678901, curve.end());
+    benchmark::DoNotOptimize(derivatives(curve, t, 1, rows).ok());
+  }
+}
+
 BENCHMARK_CAPTURE(refine_beside_memcpy, cubic, 3)
     ->Args({1'000'000, 3})
     ->Iterations(15)
@@ -119,6 +141,7 @@ BENCHMARK_CAPTURE(refine_beside_memcpy, quintic, 5)
     ->Args({1'000'000, 3})
     ->Iterations(15)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(evaluate_four_point);
 BENCHMARK(evaluate_beside_all_functions)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -7,12 +7,12 @@ import { root } from './daemon.mjs';
 
 export const writtenUrl = 'http://127.0.0.1:8080';  // in every text; the tests' daemon has another port
 
-// A folder where `tests/shapes/…` can be read and files can be written.
+// A folder where `tests/shapes/…` and `proto/examples/…` can be read and files can be written.
 export class Workshop {
   constructor(url) {
     this.url = url;
     this.folder = mkdtempSync(join(tmpdir(), 'subdivd-e2e-'));
-    symlinkSync(join(root, 'tests'), join(this.folder, 'tests'));
+    for (const folder of ['tests', 'proto']) symlinkSync(join(root, folder), join(this.folder, folder));
     this.runs = 0;
   }
 

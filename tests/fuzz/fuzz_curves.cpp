@@ -14,6 +14,7 @@
 #include "proto/curve_task.h"
 #include "proto/problem.h"
 #include "server/handlers/compute_curves.h"
+#include "server/handlers/compute_samples.h"
 
 namespace {
 
@@ -46,8 +47,15 @@ void answer(const proto::CurveRequest& request, const Budget& budget) {
     case Kind::refine:
       for (const ControlCurves& curves : request.curves.curves)
         (void)found(refine<double>(curves, proto::curve_options(request.curves, curves), budget));
+      for (const ControlPatch& surface : request.curves.surfaces)
+        (void)found(refine<double>(surface, proto::patch_options(request.curves, surface), budget));
       return;
     case Kind::evaluate:
+      if (request.task.on_surfaces) {
+        if (const auto samples = server::compute_surface_samples(request, budget); found(samples))
+          require_answer(proto::encode_samples(request, *samples));
+        return;
+      }
       if (const auto samples = server::compute_samples(request, budget); found(samples))
         require_answer(proto::encode_samples(request, *samples));
       return;
@@ -78,6 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const ControlCurves& curves : request->curves.curves) require(curves.check().ok());
+  for (const ControlPatch& surface : request->curves.surfaces) require(surface.check().ok());
   if (!server::predict_curve_task(*request, limits.max_output_bytes)) return 0;
   Budget budget;
   budget.max_bytes = Count{64} << 20;

@@ -33,17 +33,20 @@ void flatten(const nlohmann::json& array, std::vector<double>& numbers) {
   }
 }
 
+template <class Parts>
+void require_same_points(const nlohmann::json& document, const char* member, bool at_top,
+                         const Parts& parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<double> expected;
+    flatten((at_top ? document : document[member][i])["points"], expected);
+    require(parts[i].points == expected);
+  }
+}
+
 void require_same_points(const nlohmann::json& document, const proto::RefineRequest& request) {
-  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    std::vector<double> expected;
-    flatten((request.single_mesh_at_top ? document : document["meshes"][i])["points"], expected);
-    require(request.meshes[i].points == expected);
-  }
-  for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    std::vector<double> expected;
-    flatten(document["curves"][i]["points"], expected);
-    require(request.curves[i].points == expected);
-  }
+  require_same_points(document, "meshes", request.single_mesh_at_top, request.meshes);
+  require_same_points(document, "curves", request.single_curve_at_top, request.curves);
+  require_same_points(document, "surfaces", request.single_surface_at_top, request.surfaces);
 }
 
 std::string text_of(const proto::Payload& payload) {
@@ -65,6 +68,11 @@ void refine_and_encode(const proto::RefineRequest& request, const proto::Limits&
     auto refined = refine<double>(curves, proto::curve_options(request, curves), Budget{});
     if (!refined) return;
     answer.curves.push_back(std::move(*refined));
+  }
+  for (const ControlPatch& surface : request.surfaces) {
+    auto refined = refine<double>(surface, proto::patch_options(request, surface), Budget{});
+    if (!refined) return;
+    answer.surfaces.push_back(std::move(*refined));
   }
   const auto payload = proto::encode_refine(request, std::move(answer));
   if (!payload) return;
@@ -95,6 +103,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require_same_points(document, *request);
   for (const ControlMesh& mesh : request->meshes) require(mesh.check().ok());
   for (const ControlCurves& curves : request->curves) require(curves.check().ok());
+  for (const ControlPatch& surface : request->surfaces) require(surface.check().ok());
   const bool plain = request->options.format.value_or(proto::Format::json) == proto::Format::json &&
                      !request->options.precision;
   if (plain && proto::predict_refine(*request, limits)) refine_and_encode(*request, limits);

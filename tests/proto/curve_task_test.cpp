@@ -72,7 +72,9 @@ TEST(CurveTask, points_at_what_is_wrong) {
             "wrong_length /samples/curves");
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"curves":[0]})")), "missing_field /samples/ts");
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0],"us":[0]})")),
-            "unknown_field /samples/us");
+            "duplicate_field /samples/ts");
+  EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0],"xs":[0]})")),
+            "unknown_field /samples/xs");
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0]},"derivatives":33)")),
             "out_of_range /derivatives");
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0]},"frames":1)")), "wrong_type /frames");

@@ -24,6 +24,11 @@ Result<AnyAnswer> compute_as(const RefineRequest& request) {
     if (!refined) return refined.error();
     answer.curves.push_back(std::move(*refined));
   }
+  for (const ControlPatch& surface : request.surfaces) {
+    Result<RefinedPatch<Real>> refined = refine<Real>(surface, patch_options(request, surface), Budget{});
+    if (!refined) return refined.error();
+    answer.surfaces.push_back(std::move(*refined));
+  }
   return AnyAnswer(std::move(answer));
 }
 

@@ -181,8 +181,9 @@ oracle::Report report_with_a_failure() {
   deviation.worst_u = 0.5;
   oracle::Report report;
   report.oracle = "OpenSubdiv";
-  report.meshes.push_back({"m", "double", {{1, true, 6, 4, {deviation}}}, false, {"a remark"}});
+  report.meshes.push_back({"m", "double", {{1, true, 6, 4, 0, {deviation}}}, false, {"a remark"}});
   report.curves.push_back({"c", "single", {}, true, {}});
+  report.surfaces.push_back({"s", "double", {{2, true, 25, 0, 16, {}}}, true, {}});
   return report;
 }
 
@@ -194,6 +195,8 @@ TEST(write, a_report_tells_the_worst_place) {
   EXPECT_EQ(deviation["withinTolerance"], false);
   EXPECT_EQ(verification["meshes"][0]["remarks"][0], "a remark");
   EXPECT_EQ(verification["curves"][0]["name"], "c");
+  EXPECT_EQ(verification["surfaces"][0]["levels"][0]["quads"], 16);
+  EXPECT_FALSE(verification["surfaces"][0]["levels"][0].contains("triangles"));
 }
 
 TEST(write, a_report_has_null_for_what_is_no_number) {

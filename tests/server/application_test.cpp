@@ -297,6 +297,25 @@ TEST(Application, answers_what_is_asked_about_curves) {
                 .status,
             406);
 }
+TEST(Application, answers_what_is_asked_about_surfaces) {
+  const RunningApplication server;
+  const std::string surface =
+      R"("type":"bsplineSurface","uVertexCount":2,"points":[[0,0,0],[1,0,0],[0,1,0],[1,1,1]])";
+  const auto asked = [&](const std::string& path, const std::string& members = {}) {
+    return ask(server.port, post(path, "{" + surface + members + "}", "Content-Type: application/json\r\n"));
+  };
+  EXPECT_TRUE(holds(asked("/v1/refine?level=1"), "\"faceVertexIndices\":[0,1,4,3"));
+  EXPECT_TRUE(
+      holds(asked("/v1/curves/refine?level=1&faces=triangles"), "\"faceVertexIndices\":[0,1,4,0,4,3"));
+  EXPECT_EQ(asked("/v1/refine?format=glb").body.substr(0, 4), "glTF");
+  EXPECT_TRUE(holds(asked("/v1/evaluate", R"(,"samples":{"us":[0.5],"vs":[0.5]})"), "[[0.5,0.5,0.25]]"));
+  EXPECT_TRUE(holds(asked("/v1/verify?level=3"), "\"passed\":true"));
+  EXPECT_TRUE(holds(asked("/v1/refine?level=3&verify=true&normals=true&limit=true"), "\"passed\":true"));
+  const RawResponse refused = asked("/v1/curves/measure");
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_TRUE(holds(refused, "\"pointer\":\"/type\""));
+  EXPECT_TRUE(holds(asked("/v1/evaluate", R"(,"samples":{"us":[0.5],"vs":[2]})"), "\"/samples/vs/0\""));
+}
 TEST(Application, serves_a_page_that_names_its_version) {
   const RunningApplication server;
   const RawResponse response = ask(server.port, get("/"));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/handlers/compute_curves.h"
+#include "server/handlers/compute_samples.h"
 
 namespace subdivd::server {
 namespace {
@@ -47,6 +48,10 @@ json ask(Kind kind, const json& body, const Budget& budget = {}) {
   auto request = proto::decode_curves(body.dump(), kind, {}, {});
   if (!request) return refusal(request.error());
   if (auto bytes = predict_curve_task(*request, Count{1} << 30); !bytes) return refusal(bytes.error());
+  if (kind == Kind::evaluate && request->task.on_surfaces) {
+    auto samples = compute_surface_samples(*request, budget);
+    return samples ? json::parse(text_of(encode_samples(*request, *samples))) : refusal(samples.error());
+  }
   if (kind == Kind::evaluate) {
     auto samples = compute_samples(*request, budget);
     return samples ? json::parse(text_of(encode_samples(*request, *samples))) : refusal(samples.error());
@@ -88,12 +93,6 @@ TEST(CurveTasks, evaluate_counts_curves_over_the_whole_body) {
   EXPECT_EQ(
       ask(Kind::evaluate, {{"curves", {two}}, {"samples", {{"curves", {0, 1}}, {"ts", {0, 2.5}}}}})["where"],
       json({"samples", "ts", 1}));
-}
-
-TEST(CurveTasks, evaluate_has_no_formula_for_four_points) {
-  const json answer =
-      ask(Kind::evaluate, with(cubic(), {{"basis", "fourPoint"}, {"samples", {{"ts", {1}}}}}));
-  EXPECT_EQ(answer["code"], "unsupported");
 }
 
 TEST(CurveTasks, insertion_and_removal_take_each_other_back) {
@@ -239,6 +238,110 @@ TEST(CurveTasks, stop_when_nobody_waits_and_refuse_what_is_too_large) {
       ASSERT_TRUE(decoded);
       EXPECT_GE(*predict_curve_task(*decoded, Count{1} << 30), ask(Kind::convert, body).dump().size());
     }
+}
+
+json four_point() { return with(cubic(), {{"basis", "fourPoint"}, {"wrap", "periodic"}}); }
+json cut() { return with(cubic(), {{"basis", "cornerCutting"}, {"ratio", 0.3}, {"wrap", "periodic"}}); }
+
+// Curves without a formula: what exists is answered, the rest refused by name.
+TEST(CurveTasks, subdivided_curves_have_a_point_and_a_tangent) {
+  const json samples = {{"samples", {{"ts", {0, 2, 0.3}}}}};
+  const json plain = ask(Kind::evaluate, with(with(four_point(), samples), {{"derivatives", 1}}))["samples"];
+  EXPECT_EQ(plain["points"][1], json({2.0, 0.0}));
+  EXPECT_NEAR(plain["derivatives"][0][1][1].get<double>(), 0, 1e-15);  // symmetric there
+  const json framed = ask(Kind::evaluate, with(with(four_point(), samples), {{"frames", true}}))["samples"];
+  EXPECT_EQ(framed["tangents"][1][0], 1.0);
+  for (const char* none : {"normals", "curvatures", "torsions"})
+    EXPECT_EQ(framed[none], json({nullptr, nullptr, nullptr})) << none;
+  const json twice = ask(Kind::evaluate, with(with(four_point(), samples), {{"derivatives", 2}}));
+  EXPECT_EQ(twice["code"], "unsupported");
+  EXPECT_EQ(twice["where"], json({"derivatives"}));
+  // Half a unit before a point is the middle of the edge, which every cut keeps.
+  const json middle = ask(Kind::evaluate, with(cut(), {{"samples", {{"ts", {0.5, 1.5}}}}}))["samples"];
+  EXPECT_EQ(middle["points"], json({{0.5, 0.5}, {1.5, 0.5}}));
+  EXPECT_EQ(ask(Kind::evaluate, with(with(cut(), samples), {{"frames", true}}))["where"], json({"frames"}));
+  EXPECT_EQ(ask(Kind::evaluate, with(cubic(), {{"basis", "fourPoint"}, {"samples", {{"ts", {5}}}}}))["where"],
+            json({"samples", "ts", 0}));
+}
+
+TEST(CurveTasks, subdivided_curves_have_a_polyline_but_no_length) {
+  for (const json& curve : {four_point(), cut()}) {
+    const json answer = ask(Kind::measure, with(curve, {{"flatten", 1e-3}}));
+    EXPECT_GT(answer["measures"][0]["polyline"]["points"].size(), 20u);
+    EXPECT_FALSE(answer["measures"][0].contains("length"));
+    for (const json& members : {json::object(), json{{"flatten", 0.1}, {"equalLengths", 3}},
+                                json{{"flatten", 0.1}, {"closestTo", {{0, 0}}}}}) {
+      const json refused = ask(Kind::measure, with(curve, members));
+      EXPECT_EQ(refused["code"], "unsupported");
+      EXPECT_EQ(refused["where"], json({"basis"}));
+    }
+    const json both = {{"curves", {cubic(), curve}}};
+    EXPECT_EQ(ask(Kind::measure, both)["where"], json({"curves", 1, "basis"}));
+    EXPECT_EQ(ask(Kind::convert, curve)["code"], "unsupported");
+  }
+}
+
+// The biquadratic patch of the nine points (i, j, i^2 + j^2).
+json bowl() {
+  json points = json::array();
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) points.push_back({i, j, i * i + j * j});
+  return {{"type", "bsplineSurface"},
+          {"uVertexCount", 3},
+          {"degree", 2},
+          {"wrap", "nonperiodic"},
+          {"points", points}};
+}
+
+// The quadratic B-spline of i^2 at the middle of its span is 1 + 1/4; of i it is the parameter.
+TEST(CurveTasks, surfaces_are_evaluated) {
+  const json samples = with(bowl(), {{"samples", {{"us", {1, 0.5}}, {"vs", {1, 1.5}}}}});
+  const json answer = ask(Kind::evaluate, with(samples, {{"derivatives", 2}, {"frames", true}}))["samples"];
+  EXPECT_EQ(answer["surfaces"], json({0, 0}));
+  EXPECT_EQ(answer["points"][0], json({1.0, 1.0, 2.5}));
+  EXPECT_EQ(answer["points"][1], json({0.5, 1.5, 3.0}));
+  EXPECT_EQ(answer["derivatives"][0][0], json({{1.0, 0.0, 2.0}, {0.0, 1.0, 2.0}}));
+  EXPECT_EQ(answer["derivatives"][1][0], json({{0.0, 0.0, 2.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 2.0}}));
+  const auto normal = answer["normals"][0].get<std::vector<double>>();
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(normal[static_cast<std::size_t>(k)], k < 2 ? -2.0 / 3 : 1.0 / 3, 1e-15);
+  EXPECT_FALSE(ask(Kind::evaluate, samples)["samples"].contains("normals"));
+}
+
+TEST(CurveTasks, samples_outside_a_surface_are_pointed_at) {
+  const auto where = [](const json& body, const json& samples) {
+    return ask(Kind::evaluate, with(body, {{"samples", samples}}))["where"];
+  };
+  EXPECT_EQ(where(bowl(), {{"us", {1, 3}}, {"vs", {1, 1}}}), json({"samples", "us", 1}));
+  EXPECT_EQ(where(bowl(), {{"us", {1, 1}}, {"vs", {1, 0.4}}}), json({"samples", "vs", 1}));
+  EXPECT_EQ(where(bowl(), {{"us", {1}}, {"vs", {1}}, {"surfaces", {1}}}), json({"samples", "surfaces", 0}));
+  EXPECT_EQ(where(cubic(), {{"us", {1}}, {"vs", {1}}}), json({"samples", "surfaces", 0}));
+  EXPECT_EQ(where(bowl(), {{"ts", {1}}}), json({"samples", "curves", 0}));
+  json huge = bowl();
+  for (json& point : huge["points"]) point[2] = point[2] == 2 ? 1.7e308 : -1.7e308;
+  EXPECT_EQ(ask(Kind::evaluate, with(huge, {{"samples", {{"us", {1}}, {"vs", {1}}}}}))["where"],
+            json({"points"}));
+  // Flat nowhere: a pillow's seam has no normal, which is no number.
+  json flat = bowl();
+  for (json& point : flat["points"]) point = {point[0], point[0], point[0]};
+  const json answer =
+      ask(Kind::evaluate, with(flat, {{"samples", {{"us", {1}}, {"vs", {1}}}}, {"frames", true}}))["samples"];
+  EXPECT_EQ(answer["normals"][0], nullptr);
+}
+
+TEST(CurveTasks, samples_of_surfaces_are_predicted_and_stopped) {
+  const json many =
+      with(bowl(), {{"samples", {{"us", std::vector<double>(5000, 1)}, {"vs", std::vector<double>(5000, 1)}}},
+                    {"derivatives", 2},
+                    {"frames", true}});
+  const auto request = proto::decode_curves(many.dump(), Kind::evaluate, {}, {});
+  ASSERT_TRUE(request);
+  EXPECT_GE(*predict_curve_task(*request, Count{1} << 30), ask(Kind::evaluate, many).dump().size());
+  EXPECT_EQ(predict_curve_task(*request, 10000).error().code, ErrorCode::too_large);
+  const std::atomic<bool> gone = true;
+  Budget budget;
+  budget.cancelled = &gone;
+  EXPECT_EQ(ask(Kind::evaluate, many, budget)["code"], "cancelled");
 }
 
 }  // namespace

@@ -15,12 +15,7 @@
 namespace subdivd {
 namespace {
 
-Spline bezier(Index dimension, std::vector<double> points) {
-  const auto degree = static_cast<Index>(points.size() / dimension - 1);
-  std::vector<double> knots(degree + 1, 0.0);
-  knots.insert(knots.end(), degree + 1, 1.0);
-  return {degree, dimension, false, false, std::move(knots), std::move(points)};
-}
+using samples::bezier;
 
 // (t^2, t^3) over -1 <= t <= 1, with a cusp in the middle; its length is 2 (13 sqrt(13) - 8) / 27.
 Spline semicubical() { return bezier(2, {1, -1, -1.0 / 3, 1, -1.0 / 3, -1, 1, 1}); }

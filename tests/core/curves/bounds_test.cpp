@@ -13,12 +13,7 @@
 namespace subdivd {
 namespace {
 
-Spline bezier(Index dimension, std::vector<double> points) {
-  const auto degree = static_cast<Index>(points.size() / dimension - 1);
-  std::vector<double> knots(degree + 1, 0.0);
-  knots.insert(knots.end(), degree + 1, 1.0);
-  return {degree, dimension, false, false, std::move(knots), std::move(points)};
-}
+using samples::bezier;
 
 Box box_of(const Spline& spline) {
   const auto box = bounds(spline, Budget{});

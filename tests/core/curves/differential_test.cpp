@@ -12,12 +12,7 @@
 namespace subdivd {
 namespace {
 
-Spline bezier(Index dimension, std::vector<double> points) {
-  const auto degree = static_cast<Index>(points.size() / dimension - 1);
-  std::vector<double> knots(degree + 1, 0.0);
-  knots.insert(knots.end(), degree + 1, 1.0);
-  return {degree, dimension, false, false, std::move(knots), std::move(points)};
-}
+using samples::bezier;
 
 std::vector<double> rows_of(const Spline& spline, double t, Index order = 3) {
   std::vector<double> rows((order + 1) * spline.dimension());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/curves/bspline.h"
@@ -48,7 +49,15 @@ inline Spline random_spline(unsigned seed, Index degree, Index dimension, bool r
   return spline;
 }
 
-// Radius 1 around the origin, over [0, 4], in nine points.   [PieglTiller97, 7.5]
+// One polynomial piece over [0, 1].
+inline Spline bezier(Index dimension, std::vector<double> points) {
+  const auto degree = static_cast<Index>(points.size() / dimension - 1);
+  std::vector<double> knots(degree + 1, 0.0);
+  knots.insert(knots.end(), degree + 1, 1.0);
+  return {degree, dimension, false, false, std::move(knots), std::move(points)};
+}
+
+// Radius 1 around the origin, over [0, 4], in nine points.   [PieglTiller97]
 inline Spline circle() {
   const double s = std::sqrt(0.5);
   const std::vector<double> points{1, 0, 1, 1, 0, 1, -1, 1, -1, 0, -1, -1, 0, -1, 1, -1, 1, 0};

@@ -666,7 +666,7 @@ TEST(ControlPatch, needs_the_fewest_points_of_its_degree_and_wrap) {
   for (const Kind u : all_kinds())
     for (const Kind v : all_kinds()) {
       EXPECT_TRUE(random_patch(u, fewest(u), v, fewest(v)).check().ok());
-      EXPECT_EQ(random_patch(u, fewest(u) - 1, v, fewest(v)).check().error().where, (Path{"uCount"}));
+      EXPECT_EQ(random_patch(u, fewest(u) - 1, v, fewest(v)).check().error().where, (Path{"uVertexCount"}));
       EXPECT_EQ(fault(random_patch(u, fewest(u), v, fewest(v) - 1)), ErrorCode::too_few_points);
     }
   EXPECT_EQ(fault(ControlPatch{}), ErrorCode::too_few_points);
@@ -727,6 +727,20 @@ TEST(PatchRefine, stops_in_the_middle_of_a_step) {
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::deadline_exceeded);
   EXPECT_LT(Budget::Clock::now() - budget.deadline, std::chrono::seconds(1));
+}
+
+TEST(Tensor, normals_of_tangents_that_outgrow_their_type_are_refused) {
+  ControlPatch patch;
+  patch.u_count = patch.v_count = 3;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      patch.points.insert(patch.points.end(), {i == 1 ? -1.5e308 : 1.5e308, (j - 1) * 1.2e308, 0});
+  for (const bool tangents : {false, true}) {
+    const auto refined = refine<double>(patch, {.level = 1, .tangents = tangents, .normals = true}, Budget{});
+    ASSERT_FALSE(refined);
+    EXPECT_EQ(refined.error().code, ErrorCode::out_of_range);
+  }
+  EXPECT_TRUE(refine<double>(patch, {.level = 1}, Budget{}));
 }
 
 }  // namespace

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "core/curves/subdivision.h"
 #include "core/refine/numbering.h"
 #include "core/refine/refine.h"
 #include "tests/shapes/build.h"
@@ -187,41 +185,6 @@ TEST(RefineProperties, two_single_steps_are_one_double_step) {
     const auto a = corners(again), b = corners(twice);
     for (std::size_t t = 0; t < a.size(); ++t)
       for (std::size_t k = 0; k < 9; ++k) ASSERT_NEAR(a[t][k], b[t][k], 2e-10) << "triangle " << t;
-  }
-}
-
-// A border between two pinned corners, and an infinitely sharp crease, are the pinned cubic curve.
-TEST(RefineProperties, a_border_and_a_crease_are_the_cubic_curve) {
-  const Index columns = 7;
-  ControlMesh mesh = shapes::grid(columns, 3);
-  std::vector<Index> border(columns + 1), crease(columns + 1);
-  std::iota(border.begin(), border.end(), Index{0});
-  std::iota(crease.begin(), crease.end(), 2 * (columns + 1));
-  shapes::crease(mesh, crease, kInfiniteSharpness);
-  for (Index end : {border.front(), border.back(), crease.front(), crease.back()})
-    shapes::corner(mesh, end, kInfiniteSharpness);
-  const Index level = 3;
-  const auto surface = refined(mesh, level, true);
-  const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
-  for (const auto& line : {border, crease}) {
-    ControlCurves curve;
-    for (Index v : line)
-      curve.points.insert(curve.points.end(), mesh.points.begin() + 3 * v, mesh.points.begin() + 3 * v + 3);
-    const auto refined_curve = refine<double>(curve, {level, true, false}, {});
-    ASSERT_TRUE(refined_curve.ok());
-    for (std::size_t k = 0; k + 1 < line.size(); ++k)
-      for (Index s = 0; s < 8; ++s) {
-        Index vertex = line[k];
-        if (s > 0)
-          for (Index e : topology.vertex_edges(line[k]))
-            if (topology.other_end(e, line[k]) == line[k + 1])
-              vertex = topology.vertex_count() + e * 7 + (line[k] < line[k + 1] ? s : 8 - s) - 1;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const std::size_t at = 3 * (8 * k + s) + c;
-          EXPECT_NEAR(surface.points[3 * vertex + c], refined_curve->points[at], 1e-15);
-          EXPECT_NEAR(surface.limit_points[3 * vertex + c], refined_curve->limit_points[at], 1e-15);
-        }
-      }
   }
 }
 

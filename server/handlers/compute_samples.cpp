@@ -1,0 +1,165 @@
+#include "server/handlers/compute_samples.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/curves/bspline.h"
+#include "core/curves/differential.h"
+#include "core/curves/tensor.h"
+#include "proto/prepare.h"
+#include "server/handlers/drawn_curve.h"
+
+namespace subdivd::server {
+namespace {
+
+using proto::CurveRequest;
+using proto::CurveSamples;
+using proto::CurveTask;
+
+constexpr std::size_t kSamplesPerPoll = 256;
+
+struct Located {
+  std::size_t set;
+  Count curve;
+  CurvePlace place;
+};
+
+std::vector<Located> all_curves(const CurveRequest& request) {
+  std::vector<Located> all;
+  for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
+    const std::vector<CurvePlace> places = curve_places(request.curves.curves[i]);
+    for (Count c = 0; c < places.size(); ++c) all.push_back({i, c, places[c]});
+  }
+  return all;
+}
+
+Error no_such(const char* what, const char* member, std::size_t sample, Index number, std::size_t count) {
+  return {ErrorCode::out_of_range,
+          std::string("there is no ") + what + ' ' + std::to_string(number) + "; the body has " +
+              std::to_string(count),
+          {"samples", member, std::uint64_t{sample}},
+          0,
+          0};
+}
+
+// What a curve is like at one parameter, written behind what is known of the samples before.
+class Sampler {
+ public:
+  Sampler(const CurveTask& task, CurveSamples& samples) : task_(task), samples_(samples) {}
+
+  // The rows of the point and its derivatives, as many as are written and as the frame needs.
+  Result<void> add(const Spline& spline, double t) {
+    const Index dimension = spline.dimension();
+    const Index order = task_.frames ? std::max<Index>(task_.derivatives, 3) : task_.derivatives;
+    std::vector<double> rows((Count{order} + 1) * dimension);
+    if (auto done = derivatives(spline, t, order, rows); !done) return done;
+    if (task_.frames) describe(spline, t, std::span(rows).first(4 * std::size_t{dimension}));
+    return keep(dimension, std::move(rows));
+  }
+
+  // Frames have a tangent only: there are no second derivatives.
+  Result<void> add(const SubdividedCurve& curve, double t) {
+    const Index dimension = curve.dimension();
+    const Index order = std::max<Index>(task_.derivatives, task_.frames ? 1 : 0);
+    std::vector<double> rows((Count{order} + 1) * dimension);
+    if (auto done = derivatives(curve, t, order, rows); !done) return done;
+    if (task_.frames) {
+      auto tangent = unit_tangent(rows, dimension, {});
+      samples_.frames.push_back(tangent ? std::optional(FrenetFrame{*std::move(tangent), {}, {}})
+                                        : std::nullopt);
+      samples_.curvatures.emplace_back();
+      samples_.torsions.emplace_back();
+    }
+    return keep(dimension, std::move(rows));
+  }
+
+ private:
+  void describe(const Spline& spline, double t, std::span<const double> rows) {
+    const Index dimension = spline.dimension();
+    std::vector<double> noise;
+    if (auto known = derivative_noise(spline, t, 3)) noise = *std::move(known);
+    auto frame = frenet_frame(rows, dimension, noise);
+    if (!frame)  // a tangent at least
+      if (auto tangent = unit_tangent(rows, dimension, noise))
+        frame = FrenetFrame{*std::move(tangent), {}, {}};
+    samples_.frames.push_back(std::move(frame));
+    samples_.curvatures.push_back(curvature(rows, dimension, noise));
+    samples_.torsions.push_back(dimension == 3 ? torsion(rows, noise) : std::nullopt);
+  }
+
+  Result<void> keep(Index dimension, std::vector<double> rows) {
+    samples_.widths.push_back(dimension);
+    samples_.rows.push_back(std::move(rows));
+    return {};
+  }
+
+  const CurveTask& task_;
+  CurveSamples& samples_;
+};
+
+// A fault of the parameter, or of what was asked for at it.
+Error at_sample(Error error, const CurveTask& task, std::size_t sample) {
+  if (error.where == Path{"order"})
+    error.where = {task.derivatives > 0 ? "derivatives" : "frames"};
+  else
+    error.where = {"samples", "ts", std::uint64_t{sample}};
+  return error;
+}
+
+}  // namespace
+
+Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
+  const CurveTask& task = request.task;
+  const std::vector<Located> all = all_curves(request);
+  CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
+  Sampler sampler(task, samples);
+  std::vector<std::optional<DrawnCurve>> curves(all.size());  // of those that have been asked for
+  for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
+    if (k % kSamplesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    const Index number = task.sample_curves[k];
+    if (number >= all.size()) return no_such("curve", "curves", k, number, all.size());
+    std::optional<DrawnCurve>& curve = curves[number];
+    if (!curve) {
+      const auto& [set, ordinal, place] = all[number];
+      auto made = drawn(request.curves.curves[set], ordinal, place);
+      if (!made) return proto::blame_input(request.curves, std::move(made).error(), "curves", set);
+      curve = *std::move(made);
+    }
+    const auto done =
+        std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, *curve);
+    if (!done) return at_sample(done.error(), task, k);
+  }
+  return samples;
+}
+
+Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& request, const Budget& budget) {
+  const CurveTask& task = request.task;
+  const std::vector<ControlPatch>& surfaces = request.curves.surfaces;
+  proto::SurfaceSamples samples;
+  for (std::size_t k = 0; k < task.sample_us.size(); ++k) {
+    if (k % kSamplesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    const Index number = task.sample_surfaces[k];
+    if (number >= surfaces.size()) return no_such("surface", "surfaces", k, number, surfaces.size());
+    auto sample = evaluate<double>(surfaces[number], task.sample_us[k], task.sample_vs[k]);
+    if (sample) {
+      samples.samples.push_back(*std::move(sample));
+      continue;
+    }
+    // A parameter is blamed by its name, u or v; numbers that outgrow their type are those of the surface.
+    Error error = std::move(sample).error();
+    const bool u = error.where == Path{"u"};
+    if (!u && error.where != Path{"v"})
+      return proto::blame_input(request.curves, std::move(error), "surfaces", number);
+    error.where = {"samples", u ? "us" : "vs", std::uint64_t{k}};
+    return error;
+  }
+  return samples;
+}
+
+}  // namespace subdivd::server

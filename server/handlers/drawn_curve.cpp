@@ -1,0 +1,16 @@
+#include "server/handlers/drawn_curve.h"
+
+#include <utility>
+
+namespace subdivd::server {
+
+Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place) {
+  auto spline = spline_of(curves, curve, place);
+  if (spline) return DrawnCurve(*std::move(spline));
+  if (spline.error().code != ErrorCode::unsupported) return std::move(spline).error();
+  auto subdivided = subdivided_curve(curves, curve, place);
+  if (!subdivided) return std::move(subdivided).error();
+  return DrawnCurve(*subdivided);
+}
+
+}  // namespace subdivd::server

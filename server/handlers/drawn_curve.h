@@ -1,0 +1,18 @@
+#pragma once
+// A curve of a request as what can be evaluated and flattened.
+
+#include <variant>
+
+#include "core/base/result.h"
+#include "core/curves/local_subdivision.h"
+#include "core/curves/piecewise.h"
+
+namespace subdivd::server {
+
+// On knots what has polynomial pieces, else the points and the rule.
+using DrawnCurve = std::variant<Spline, SubdividedCurve>;
+
+// As spline_of(); `curves` must outlive it.
+Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place);
+
+}  // namespace subdivd::server
