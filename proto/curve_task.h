@@ -48,6 +48,7 @@ struct CurveTask {
   std::optional<std::array<double, 2>> range;   // convert: the part that is kept
   std::optional<std::array<double, 2>> domain;  // convert: its parameters afterwards
   bool reversed = false;                        // convert
+  bool join = false;                            // convert: all curves of the body become one
   std::vector<double> closest_to;               // measure: points as wide as the curves'
   Index closest_width = 0;
   std::optional<double> flatten;       // measure: chord tolerance

@@ -31,8 +31,8 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
       if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits);
       request.error().message += "; this looks like glTF, whose content type is model/gltf+json";
     }
-    // A mesh has no type: the body is one curve or surface, with its members at the top.
-    if (!json::has_member(body, "type")) return request;
+    // A mesh has neither: the body is one curve or surface, with its members at the top.
+    if (!json::has_member(body, "type") && !json::has_member(body, "basis")) return request;
     request = json::read_curve(body, limits);
     if (!request) return request;
   }

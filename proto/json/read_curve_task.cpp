@@ -27,7 +27,7 @@ class CurveTaskReader {
   CurveTaskReader(Cursor& cursor, const Limits& limits, CurveRequest& out)
       : cursor_(cursor), limits_(limits), out_(out), top_curve_(cursor, top_) {}
 
-  static constexpr std::size_t kOwnMembers = 21;
+  static constexpr std::size_t kOwnMembers = 22;
   static constexpr std::size_t kMembers = kOwnMembers + CurvesReader::kMembers + 9;  // of surfaces alone
   static const std::array<Cursor::Member<CurveTaskReader>, kMembers>& members() {
     using T = CurveTaskReader;
@@ -47,6 +47,7 @@ class CurveTaskReader {
         {"range", &T::range},
         {"domain", &T::domain},
         {"reversed", &T::reversed},
+        {"join", &T::join},
         {"closestTo", &T::closest_to},
         {"flatten", &T::flatten},
         {"equalLengths", &T::equal_lengths},
@@ -151,6 +152,7 @@ class CurveTaskReader {
   bool range(Value value) { return read_pair(value, task().range.emplace()); }
   bool domain(Value value) { return read_pair(value, task().domain.emplace()); }
   bool reversed(Value value) { return read_truth(value, task().reversed); }
+  bool join(Value value) { return read_truth(value, task().join); }
   bool closest_to(Value value) {
     Tuples tuples;
     if (!read_tuples(cursor_, value, 0, kMaxCurveWidth, "point", tuples)) return false;
@@ -239,7 +241,7 @@ class CurveTaskReader {
       std::array<Kind, 2> tasks;
       bool needed;
     };
-    static constexpr std::array<Rule, 16> rules = {{
+    static constexpr std::array<Rule, 17> rules = {{
         {"options", {Kind::refine, Kind::refine}, false},
         {"samples", {Kind::evaluate, Kind::evaluate}, true},
         {"derivatives", {Kind::evaluate, Kind::evaluate}, false},
@@ -251,6 +253,7 @@ class CurveTaskReader {
         {"range", {Kind::convert, Kind::convert}, false},
         {"domain", {Kind::convert, Kind::convert}, false},
         {"reversed", {Kind::convert, Kind::convert}, false},
+        {"join", {Kind::convert, Kind::convert}, false},
         {"closestTo", {Kind::measure, Kind::measure}, false},
         {"flatten", {Kind::measure, Kind::measure}, false},
         {"equalLengths", {Kind::measure, Kind::measure}, false},

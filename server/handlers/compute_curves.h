@@ -13,9 +13,14 @@ namespace subdivd::server {
 // too_large over `most`, the bytes of an answer.
 Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most);
 
+// The curves, or the surfaces, at the parameters of the request. Curves without a formula have a point and a
+// tangent, the others everything.
+Result<proto::CurveSamples> compute_samples(const proto::CurveRequest& request, const Budget& budget);
+Result<proto::SurfaceSamples> compute_surface_samples(const proto::CurveRequest& request,
+                                                      const Budget& budget);
 Result<std::vector<proto::CurveMeasure>> compute_measures(const proto::CurveRequest& request,
                                                           const Budget& budget);
-// Insertion, removal and conversion: every curve of the request for itself.
+// Insertion, removal and conversion: every curve of the request for itself, or all joined into one.
 Result<proto::EditedCurves> compute_edited(const proto::CurveRequest& request, const Budget& budget);
 
 }  // namespace subdivd::server

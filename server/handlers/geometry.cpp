@@ -10,7 +10,6 @@
 #include "proto/schemes.h"
 #include "server/handlers/compute.h"
 #include "server/handlers/compute_curves.h"
-#include "server/handlers/compute_samples.h"
 #include "server/negotiation.h"
 #include "server/router.h"
 #include "server/status.h"

@@ -14,7 +14,6 @@
 #include "proto/curve_task.h"
 #include "proto/problem.h"
 #include "server/handlers/compute_curves.h"
-#include "server/handlers/compute_samples.h"
 
 namespace {
 

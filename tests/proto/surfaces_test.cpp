@@ -244,8 +244,10 @@ TEST(surfaces, only_refining_and_evaluating_take_them) {
   EXPECT_TRUE(decode_curves(grid(4, 3).dump(), CurveTaskKind::refine, {}, {}));
 }
 
-TEST(surfaces, a_curve_at_the_top_needs_its_type_at_the_door_for_everything) {
+TEST(surfaces, a_curve_at_the_top_needs_its_type_or_basis_at_the_door_for_everything) {
   EXPECT_EQ(refused({{"type", "cubic"}, {"points", {{0, 0}, {1, 1}}}}), "accepted");
+  EXPECT_EQ(refused({{"basis", "bspline"}, {"points", {{0, 0}, {1, 1}}}}), "accepted");
+  EXPECT_EQ(refused({{"points", {{0, 0}, {1, 1}}}}), "wrong_length /points/0");
   EXPECT_EQ(refused({{"type", "cubic"}, {"points", {{0, 0}}}}), "too_few_points /points");
   EXPECT_EQ(refused({{"type", "cubic"}, {"points", {{0, 0}, {1, 1}}}, {"frames", true}}),
             "unknown_field /frames");

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "server/handlers/compute_curves.h"
-#include "server/handlers/compute_samples.h"
 
 namespace subdivd::server {
 namespace {
@@ -200,6 +199,52 @@ TEST(CurveTasks, numbers_that_outgrow_a_double_are_refused) {
       const json answer = ask(kind, with(curve, members));
       EXPECT_TRUE(answer["code"] == "out_of_range" || answer["code"] == "not_finite") << answer;
     }
+}
+
+TEST(CurveTasks, join_makes_one_curve_of_all) {
+  const json first = cubic();
+  json second = {
+      {"type", "nurbs"}, {"order", 3}, {"knots", {0, 0, 0, 2, 2, 2}}, {"points", {{4, 0}, {5, 3}, {6, 0}}}};
+  const json body = {{"curves", {first, second}}, {"join", true}};
+  const json joined = ask(Kind::convert, body);
+  ASSERT_TRUE(joined.contains("curves")) << joined;
+  ASSERT_EQ(joined["curves"].size(), 1u);
+  EXPECT_EQ(joined["errorBounds"].size(), 1u);
+  EXPECT_EQ(joined["curves"][0]["order"], json({4}));
+  const auto at = [](const json& curves, const json& numbers, const json& ts) {
+    return ask(Kind::evaluate,
+               {{"curves", curves}, {"samples", {{"curves", numbers}, {"ts", ts}}}})["samples"]["points"];
+  };
+  const json whole = at(joined["curves"], {0, 0, 0, 0}, {0, 2.5, 5, 6});
+  const json parts = at({first, second}, {0, 0, 1, 1}, {0, 2.5, 1, 2});
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_NEAR(whole[i][k].get<double>(), parts[i][k].get<double>(), 1e-14);
+  // Parameters of the whole.
+  const json moved = ask(Kind::convert, with(body, {{"domain", {0, 1}}}));
+  EXPECT_EQ(moved["curves"][0]["knots"].back(), 1);
+  EXPECT_EQ(moved["curves"][0]["knots"].front(), 0);
+  // Ends apart, or of another width.
+  second["points"][0] = {4, 0.5};
+  const json apart = {{"curves", {first, second}}, {"join", true}};
+  EXPECT_EQ(ask(Kind::convert, apart)["where"], json({"curves", 1}));
+  const json near = ask(Kind::convert, with(apart, {{"tolerance", 0.5}}));
+  EXPECT_GE(near["errorBounds"][0], 0.25);
+  EXPECT_LE(near["errorBounds"][0], 0.26);
+  second["points"] = {{4, 0, 0}, {5, 3, 0}, {6, 0, 0}};
+  EXPECT_EQ(ask(Kind::convert, {{"curves", {first, second}}, {"join", true}})["where"], json({"curves", 1}));
+  // The lower degree is lifted, and what comes is not more than was predicted.
+  json high = {{"type", "nurbs"}, {"order", 41}, {"points", json::array()}, {"knots", json::array()}};
+  for (int i = 0; i < 41; ++i) high["points"].push_back({4 + i, 0});
+  for (int i = 0; i < 82; ++i) high["knots"].push_back(i / 41);
+  const json lifted = {{"curves", {first, high}}, {"join", true}};
+  const auto request = proto::decode_curves(lifted.dump(), Kind::convert, {}, {});
+  ASSERT_TRUE(request);
+  const json answer = ask(Kind::convert, lifted);
+  EXPECT_EQ(answer["curves"][0]["order"], json({41}));
+  EXPECT_GE(*predict_curve_task(*request, Count{1} << 30), answer.dump().size());
+  EXPECT_TRUE(ask(Kind::convert, with(first, {{"join", true}})).contains("points"));
+  EXPECT_EQ(ask(Kind::measure, with(first, {{"join", true}}))["where"], json({"join"}));
 }
 
 TEST(CurveTasks, large_coordinates_are_no_trouble) {

@@ -1,5 +1,3 @@
-#include "server/handlers/compute_samples.h"
-
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -11,6 +9,7 @@
 #include "core/curves/differential.h"
 #include "core/curves/tensor.h"
 #include "proto/prepare.h"
+#include "server/handlers/compute_curves.h"
 #include "server/handlers/drawn_curve.h"
 
 namespace subdivd::server {

@@ -1,0 +1,116 @@
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/curves/flatten_subdivided.h"
+#include "server/handlers/compute_curves.h"
+#include "server/handlers/drawn_curve.h"
+#include "server/handlers/each_curve.h"
+
+namespace subdivd::server {
+namespace {
+
+using proto::CurveMeasure;
+using proto::CurveRequest;
+using proto::CurveTask;
+
+constexpr double kLengthTolerance = 1e-9;
+
+Result<void> measure_closest(const Spline& spline, const CurveTask& task, const Budget& budget,
+                             CurveMeasure& measure) {
+  if (!task.closest_to.empty() && task.closest_width != spline.dimension())
+    return Error{ErrorCode::wrong_length,
+                 "the points have " + std::to_string(task.closest_width) +
+                     " coordinates, those of the curve " + std::to_string(spline.dimension()),
+                 {"closestTo"},
+                 0,
+                 0};
+  for (std::size_t at = 0; at < task.closest_to.size(); at += task.closest_width) {
+    auto closest = closest_point(spline, std::span(task.closest_to).subspan(at, task.closest_width), budget);
+    if (!closest) return at_member(std::move(closest).error(), "closestTo", at / task.closest_width);
+    measure.closest.push_back(*std::move(closest));
+  }
+  return {};
+}
+
+// A spline or a subdivided curve.
+template <class Curve>
+Result<Polyline> flattened(const Curve& drawn, const ControlCurves& curves, Count curve,
+                           const CurveTask& task, const Budget& budget) {
+  const FlattenOptions options = {.tolerance = *task.flatten,
+                                  .max_points = most_polyline_points(curves.points_of_curve(curve))};
+  auto polyline = flatten(drawn, options, budget);
+  if (!polyline) return at_member(std::move(polyline).error(), "flatten");
+  return polyline;
+}
+
+// What has no formula has a polyline, and that only.
+Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve,
+                              const CurveTask& task, const Budget& budget) {
+  if (!task.flatten || task.equal_lengths || task.convergence || !task.closest_to.empty())
+    return Error{
+        ErrorCode::unsupported,
+        "this curve has no polynomial pieces: it has no length or box here, only a polyline (flatten)",
+        {"basis"},
+        0,
+        0};
+  CurveMeasure measure;
+  auto polyline = flattened(drawn, curves, curve, task, budget);
+  if (!polyline) return std::move(polyline).error();
+  measure.polyline = *std::move(polyline);
+  return measure;
+}
+
+Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve,
+                              const CurveTask& task, const Budget& budget) {
+  CurveMeasure measure;
+  auto length = arc_length(spline,
+                           {.tolerance = task.tolerance.value_or(kLengthTolerance),
+                            .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
+                           budget);
+  if (!length) return at_member(std::move(length).error(), "tolerance");
+  measure.length = *length;
+  auto box = bounds(spline, budget);
+  if (!box) return std::move(box).error();
+  measure.box = *std::move(box);
+  if (auto done = measure_closest(spline, task, budget, measure); !done) return std::move(done).error();
+  if (task.flatten) {
+    auto polyline = flattened(spline, curves, curve, task, budget);
+    if (!polyline) return std::move(polyline).error();
+    measure.polyline = *std::move(polyline);
+  }
+  if (task.equal_lengths) {
+    auto parameters = equal_parameters(spline, *task.equal_lengths,
+                                       {.tolerance = kPositionOptions.tolerance,
+                                        .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
+                                       budget);
+    if (!parameters) return at_member(std::move(parameters).error(), "equalLengths");
+    measure.equal_parameters = *std::move(parameters);
+  }
+  if (task.convergence) {
+    auto convergence = measure_convergence(curves, static_cast<Index>(curve), *task.convergence, budget);
+    if (!convergence) return at_member(std::move(convergence).error(), "convergence");
+    measure.convergence = *std::move(convergence);
+  }
+  return measure;
+}
+
+}  // namespace
+
+Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, const Budget& budget) {
+  std::vector<CurveMeasure> all;
+  const auto measure = [&](const DrawnCurve& curve, std::size_t set, Count ordinal) -> Result<void> {
+    const ControlCurves& curves = request.curves.curves[set];
+    auto one = std::visit(
+        [&](const auto& drawn) { return measured(drawn, curves, ordinal, request.task, budget); }, curve);
+    if (!one && one.error().where == Path{"basis"})
+      return proto::blame_input(request.curves, std::move(one).error(), "curves", set);
+    if (!one) return std::move(one).error();
+    all.push_back(*std::move(one));
+    return {};
+  };
+  if (auto done = for_each_curve(request, budget, drawn, measure); !done) return std::move(done).error();
+  return all;
+}
+
+}  // namespace subdivd::server
