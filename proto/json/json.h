@@ -14,7 +14,8 @@ namespace subdivd::proto::json {
 // Reads a JSON body: meshes (not yet checked by ControlMesh::check), curves, options.
 Result<RefineRequest> read(std::string_view body, const Limits& limits);
 
-// The same for a body that is one curve or surface, or lists of them: what has a "type" or "basis" at its top.
+// The same for a body that is one curve or surface, or lists of them: what has a "type" or "basis" at its
+// top.
 Result<RefineRequest> read_curve(std::string_view body, const Limits& limits);
 
 // Whether the body is a JSON object with this member at its top.

@@ -15,22 +15,14 @@ class AnswerWriter {
       : request_(request), answer_(std::move(answer)) {}
 
   Result<Payload> write(std::string_view envelope) {
+    const bool nothing = answer_.meshes.empty() && answer_.curves.empty() && answer_.surfaces.empty();
     text_.open('{');
-    write_meshes();
-    if (request_.single_curve_at_top && answer_.curves.size() == 1) {
-      write_curves(0);
-    } else if (!answer_.curves.empty()) {
-      text_.key("curves");
-      text_.open('[');
-      for (std::size_t i = 0; i < answer_.curves.size() && !error_; ++i) {
-        text_.separate();
-        text_.open('{');
-        write_curves(i);
-        text_.close('}');
-      }
-      text_.close(']');
-    }
-    write_surfaces();
+    write_parts("meshes", answer_.meshes.size(), request_.single_mesh_at_top, nothing,
+                [&](std::size_t i) { write_mesh(i); });
+    write_parts("curves", answer_.curves.size(), request_.single_curve_at_top, false,
+                [&](std::size_t i) { write_curves(i); });
+    write_parts("surfaces", answer_.surfaces.size(), request_.single_surface_at_top, false,
+                [&](std::size_t i) { write_surface(i); });
     if (error_) return *error_;
     if (envelope != "{}") text_.separate();
     text_.raw(envelope.substr(1));  // the rest of an object, closing brace included
@@ -41,18 +33,17 @@ class AnswerWriter {
   }
 
  private:
-  void write_meshes() {
-    if (request_.single_mesh_at_top && answer_.meshes.size() == 1) {
-      write_mesh(0);
-      return;
-    }
-    if (answer_.meshes.empty() && !(answer_.curves.empty() && answer_.surfaces.empty())) return;
-    text_.key("meshes");
+  // One at the top, or a list; an empty one only where it is `wanted`.
+  template <class WriteOne>
+  void write_parts(std::string_view name, std::size_t count, bool at_top, bool wanted, WriteOne write_one) {
+    if (error_ || (count == 0 && !wanted)) return;
+    if (at_top && count == 1) return write_one(0);
+    text_.key(name);
     text_.open('[');
-    for (std::size_t i = 0; i < answer_.meshes.size() && !error_; ++i) {
+    for (std::size_t i = 0; i < count && !error_; ++i) {
       text_.separate();
       text_.open('{');
-      write_mesh(i);
+      write_one(i);
       text_.close('}');
     }
     text_.close(']');
@@ -90,20 +81,6 @@ class AnswerWriter {
       text_.indices(std::exchange(primvar.indices, {}), 1, ArrayForm::flat);
     }
     text_.close('}');
-  }
-
-  void write_surfaces() {
-    if (request_.single_surface_at_top && answer_.surfaces.size() == 1) return write_surface(0);
-    if (answer_.surfaces.empty()) return;
-    text_.key("surfaces");
-    text_.open('[');
-    for (std::size_t i = 0; i < answer_.surfaces.size() && !error_; ++i) {
-      text_.separate();
-      text_.open('{');
-      write_surface(i);
-      text_.close('}');
-    }
-    text_.close(']');
   }
 
   void write_surface(std::size_t i) {
