@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <vector>
 
 #include "core/base/buffer.h"
@@ -84,12 +85,14 @@ double all_functions(const Spline& spline, Index degree, Count i, double t) {
   return sum;
 }
 
-void evaluate_beside_all_functions(benchmark::State& state) {
+// In order, or in any: the search for the span and what it reads must not live from the neighbour before.
+void evaluate_beside_all_functions(benchmark::State& state, bool in_order) {
   const Spline spline = uneven(static_cast<Count>(state.range(0)));
   constexpr Count kAll = 10'000'000, kFew = 20'000;
   std::vector<double> ts(kAll), points(3 * kAll);
   const double step = (spline.end() - spline.begin()) / kAll;
   for (Count k = 0; k < kAll; ++k) ts[k] = spline.begin() + step * static_cast<double>(k);
+  if (!in_order) std::ranges::shuffle(ts, std::mt19937_64(1));
   double ours = 0, naive = 0;
   for (auto _ : state) {
     const SplineEvaluator evaluator(spline);
@@ -142,7 +145,14 @@ BENCHMARK_CAPTURE(refine_beside_memcpy, quintic, 5)
     ->Iterations(15)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluate_four_point);
-BENCHMARK(evaluate_beside_all_functions)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(evaluate_beside_all_functions, in_order, true)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(evaluate_beside_all_functions, shuffled, false)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace subdivd
