@@ -6,29 +6,11 @@
 #include <span>
 
 #include "core/curves/precision.h"
+#include "core/curves/tensor_rows.h"
 #include "core/curves/tensor_rules.h"
 
 namespace subdivd {
 namespace {
-
-constexpr Count kPollInterval = 4096;  // scalars between two looks at the budget
-
-// Counts work and polls the budget now and then.
-class Pacer {
- public:
-  explicit Pacer(const Budget& budget) : budget_(budget) {}
-
-  std::optional<Error> spend(Count scalars) {
-    spent_ += scalars;
-    if (spent_ < kPollInterval) return std::nullopt;
-    spent_ = 0;
-    return budget_.poll();
-  }
-
- private:
-  const Budget& budget_;
-  Count spent_ = kPollInterval;  // the first call polls: a dead caller costs nothing
-};
 
 Direction refined(Direction d, Index level) {
   return {d.wrap, d.degree, refined_grid_count(d.wrap, d.degree, d.n, level)};
@@ -68,33 +50,7 @@ struct Grid {
   Buffer<Real> points;
 
   Count row_size() const { return u.n * width; }
-  const Real* row(Count j) const { return points.data() + j * row_size(); }
 };
-
-// Three rows of the grid into one: `taps` along v.
-template <class Real>
-std::optional<Error> combine_rows(const Grid<Real>& grid, const Taps& taps, Buffer<Real>& out, Pacer& pacer) {
-  const Real* a = grid.row(taps.at[0]);
-  const Real* b = grid.row(taps.at[1]);
-  const Real* c = grid.row(taps.at[2]);
-  const Real x = Real(taps.weight[0]), y = Real(taps.weight[1]), z = Real(taps.weight[2]);
-  for (Count begin = 0; begin < grid.row_size(); begin += kPollInterval) {
-    const Count end = std::min(begin + kPollInterval, grid.row_size());
-    if (auto stop = pacer.spend(end - begin)) return stop;
-    for (Count k = begin; k < end; ++k) out[k] = (a[k] * x + b[k] * y) + c[k] * z;
-  }
-  return std::nullopt;
-}
-
-// Three points of a row into one, times `scale`: `taps` along u.
-template <class Real>
-void combine_points(const Buffer<Real>& row, Index width, const Taps& taps, Real scale, Real* out) {
-  const Real* a = &row[taps.at[0] * width];
-  const Real* b = &row[taps.at[1] * width];
-  const Real* c = &row[taps.at[2] * width];
-  const Real x = Real(taps.weight[0]), y = Real(taps.weight[1]), z = Real(taps.weight[2]);
-  for (Index k = 0; k < width; ++k) out[k] = ((a[k] * x + b[k] * y) + c[k] * z) * scale;
-}
 
 // One step. Rows first, a new row at a time: no grid is ever half refined.
 template <class Real>
@@ -102,52 +58,71 @@ std::optional<Error> subdivide(const Grid<Real>& from, Grid<Real>& to, Pacer& pa
   to.points.resize(to.row_size() * to.v.n);
   Buffer<Real> row(from.row_size());
   for (Count j = 0; j < to.v.n; ++j) {
-    if (auto stop = combine_rows(from, step_taps(from.v, j), row, pacer)) return stop;
-    Real* out = &to.points[j * to.row_size()];
-    for (Count i = 0; i < to.u.n; ++i) {
-      if (auto stop = pacer.spend(to.width)) return stop;
-      combine_points(row, to.width, step_taps(from.u, i), Real(1), out + i * to.width);
-    }
+    if (auto stop =
+            combine_rows(from.points.data(), from.row_size(), step_taps(from.v, j), row.data(), pacer))
+      return stop;
+    if (auto stop = split_row(from.u, row.data(), to.width, &to.points[j * to.row_size()], pacer))
+      return stop;
   }
   return std::nullopt;
 }
 
 // --- Frames -----------------------------------------------------------------------------------------------
 
+// What is known of one row, in the answer where it is asked for and in scratch rows where it is not.
+template <class Real>
+struct FrameRow {
+  Real *point, *du, *dv;
+};
+
+template <class Real>
+Result<void> append_normals(const FrameRow<Real>& row, Count count, Index level, Real* normals,
+                            Pacer& pacer) {
+  // Tangents that nobody sees must exist as well: without them there would be a normal of no meaning.
+  for (const Real* tangents : {row.du, row.dv})
+    if (auto finite = check_finite(std::span(tangents, 3 * count), pacer); !finite) return finite;
+  for (Count i = 0; i < count; ++i) {
+    if (auto stop = pacer.spend(3)) return *stop;
+    const auto normal = normal_of<Real>(row.point + 3 * i, row.du + 3 * i, row.dv + 3 * i, level);
+    std::copy_n(normal.data(), 3, normals + 3 * i);
+  }
+  return {};
+}
+
 // Limit points, tangents and normals, what is asked for of them.
 template <class Real>
-std::optional<Error> append_frames(const Grid<Real>& grid, const PatchOptions& options,
-                                   RefinedPatch<Real>& out, Pacer& pacer) {
+Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, RefinedPatch<Real>& out,
+                           Pacer& pacer) {
   const Index width = grid.width;
-  const Count points = grid.u.n * grid.v.n;
+  const Count points = grid.u.n * grid.v.n, size = grid.row_size();
   const Real scale = static_cast<Real>(Count{1} << options.level);
+  const bool tangents = options.tangents || options.normals;
   if (options.limit) out.limit_points.resize(points * width);
   if (options.tangents) out.du.resize(points * width), out.dv.resize(points * width);
   if (options.normals) out.normals.resize(points * 3);
-  Buffer<Real> limits(grid.row_size()), slopes(grid.row_size());  // along v
-  std::array<Real, kMaxPatchWidth> point, du, dv;
+  Buffer<Real> limits(size), slopes(tangents ? size : 0);  // along v
+  Buffer<Real> point(options.limit ? 0 : size), du(options.tangents ? 0 : slopes.size()), dv(du.size());
   for (Count j = 0; j < grid.v.n; ++j) {
-    if (auto stop = combine_rows(grid, limit_taps(grid.v, j), limits, pacer)) return stop;
-    if (auto stop = combine_rows(grid, tangent_taps(grid.v, j), slopes, pacer)) return stop;
-    for (Count i = 0; i < grid.u.n; ++i) {
-      if (auto stop = pacer.spend(width)) return stop;
-      const Taps limit = limit_taps(grid.u, i);
-      combine_points(limits, width, limit, Real(1), point.data());
-      combine_points(limits, width, tangent_taps(grid.u, i), scale, du.data());
-      combine_points(slopes, width, limit, scale, dv.data());
-      const Count at = j * grid.u.n + i;
-      if (options.limit) std::copy_n(point.data(), width, &out.limit_points[at * width]);
-      if (options.tangents) std::copy_n(du.data(), width, &out.du[at * width]);
-      if (options.tangents) std::copy_n(dv.data(), width, &out.dv[at * width]);
-      if (!options.normals) continue;
-      // Tangents that nobody sees must exist as well: without them there would be a normal of no meaning.
-      for (Index k = 0; k < 3; ++k)
-        if (!std::isfinite(du[k]) || !std::isfinite(dv[k])) return does_not_fit();
-      const auto normal = normal_of<Real>(point.data(), du.data(), dv.data(), options.level);
-      std::copy_n(normal.data(), 3, &out.normals[at * 3]);
-    }
+    const FrameRow<Real> row = {options.limit ? &out.limit_points[j * size] : point.data(),
+                                options.tangents ? &out.du[j * size] : du.data(),
+                                options.tangents ? &out.dv[j * size] : dv.data()};
+    const auto across = [&](const Taps& taps, Buffer<Real>& to) {
+      return combine_rows(grid.points.data(), size, taps, to.data(), pacer);
+    };
+    const auto along = [&](const Buffer<Real>& from, RowRule rule, Real factor, Real* to) {
+      return combine_along(grid.u, from.data(), width, rule, factor, to, pacer);
+    };
+    if (auto stop = across(limit_taps(grid.v, j), limits)) return *stop;
+    if (auto stop = along(limits, limit_taps, Real(1), row.point)) return *stop;
+    if (!tangents) continue;
+    if (auto stop = across(tangent_taps(grid.v, j), slopes)) return *stop;
+    if (auto stop = along(limits, tangent_taps, scale, row.du)) return *stop;
+    if (auto stop = along(slopes, limit_taps, scale, row.dv)) return *stop;
+    if (!options.normals) continue;
+    Real* normals = &out.normals[j * grid.u.n * 3];
+    if (auto done = append_normals(row, grid.u.n, options.level, normals, pacer); !done) return done;
   }
-  return std::nullopt;
+  return {};
 }
 
 // --- Faces ------------------------------------------------------------------------------------------------
@@ -161,46 +136,51 @@ Count corner_count(Direction u, Direction v, PatchFaces faces) {
   return u.segments() * v.segments() * per_quad;
 }
 
+template <PatchFaces kFaces>
+Index* add_quad(Index a, Index b, Index c, Index d, Index* to) {
+  if constexpr (kFaces == PatchFaces::quads)
+    to[0] = a, to[1] = b, to[2] = c, to[3] = d;
+  else
+    to[0] = a, to[1] = b, to[2] = c, to[3] = a, to[4] = c, to[5] = d;
+  return to + (kFaces == PatchFaces::quads ? 4 : 6);
+}
+
+template <PatchFaces kFaces>
+std::optional<Error> append_quads(Direction u, Direction v, Index* to, Pacer& pacer) {
+  const Count last = u.n - 1;
+  for (Count j = 0; j < v.segments(); ++j) {
+    const Index row = static_cast<Index>(j * u.n), next = static_cast<Index>(v.after(j) * u.n);
+    for (Count begin = 0; begin < last; begin += Pacer::kInterval) {
+      const auto end = static_cast<Index>(std::min(begin + Pacer::kInterval, last));
+      if (auto stop = pacer.spend(4 * (end - begin))) return stop;
+      for (auto i = static_cast<Index>(begin); i < end; ++i)
+        to = add_quad<kFaces>(row + i, row + i + 1, next + i + 1, next + i, to);
+    }
+    const auto close = static_cast<Index>(last);
+    if (!u.open()) to = add_quad<kFaces>(row + close, row, next, next + close, to);
+  }
+  return std::nullopt;
+}
+
 std::optional<Error> append_faces(Direction u, Direction v, PatchFaces faces, Buffer<Index>& out,
                                   Pacer& pacer) {
   out.resize(corner_count(u, v, faces));
-  Index* to = out.data();
-  for (Count j = 0; j < v.segments(); ++j) {
-    const Count row = j * u.n, next = v.after(j) * u.n;
-    for (Count i = 0; i < u.segments(); ++i) {
-      if (auto stop = pacer.spend(4)) return stop;
-      const Index a = static_cast<Index>(row + i), b = static_cast<Index>(row + u.after(i));
-      const Index c = static_cast<Index>(next + u.after(i)), d = static_cast<Index>(next + i);
-      if (faces == PatchFaces::quads)
-        for (const Index corner : {a, b, c, d}) *to++ = corner;
-      else
-        for (const Index corner : {a, b, c, a, c, d}) *to++ = corner;
-    }
-  }
-  return std::nullopt;
+  if (faces == PatchFaces::quads) return append_quads<PatchFaces::quads>(u, v, out.data(), pacer);
+  return append_quads<PatchFaces::triangles>(u, v, out.data(), pacer);
 }
 
 // --- Everything together ----------------------------------------------------------------------------------
 
 template <class Real>
-Result<void> check_finite(const Buffer<Real>& values, Pacer& pacer) {
-  for (Count begin = 0; begin < values.size(); begin += kPollInterval) {
-    const Count end = std::min<Count>(begin + kPollInterval, values.size());
-    if (auto stop = pacer.spend(end - begin)) return *stop;
-    for (Count k = begin; k < end; ++k)
-      if (!std::isfinite(values[k])) return does_not_fit();
-  }
-  return {};
-}
-
-template <class Real>
 Result<Grid<Real>> grid_of(const ControlPatch& patch, Pacer& pacer) {
   Grid<Real> grid{u_of(patch), v_of(patch), patch.width, Buffer<Real>(patch.points.size())};
-  for (Count k = 0; k < patch.points.size(); ++k) {
-    if (auto stop = pacer.spend(1)) return *stop;
-    if (std::abs(patch.points[k]) > static_cast<double>(std::numeric_limits<Real>::max()))
-      return does_not_fit();
-    grid.points[k] = static_cast<Real>(patch.points[k]);
+  for (Count begin = 0; begin < patch.points.size(); begin += Pacer::kInterval) {
+    const Count count = std::min<Count>(Pacer::kInterval, patch.points.size() - begin);
+    if (auto stop = pacer.spend(count)) return *stop;
+    const std::span<const double> from = std::span(patch.points).subspan(begin, count);
+    for (const double x : from)
+      if (!(std::abs(x) <= static_cast<double>(std::numeric_limits<Real>::max()))) return does_not_fit();
+    for (Count k = 0; k < count; ++k) grid.points[begin + k] = static_cast<Real>(from[k]);
   }
   return grid;
 }
@@ -332,12 +312,12 @@ Result<RefinedPatch<Real>> refine(const ControlPatch& patch, const PatchOptions&
   out.v_wrap = patch.v_wrap;
   out.corners_per_face = corners_of(options.faces);
   if (options.limit || options.tangents || options.normals)
-    if (auto stop = append_frames(grid, options, out, pacer)) return *stop;
+    if (auto done = append_frames(grid, options, out, pacer); !done) return std::move(done).error();
   if (options.faces != PatchFaces::none)
     if (auto stop = append_faces(grid.u, grid.v, options.faces, out.faces, pacer)) return *stop;
   out.points = std::move(grid.points);
   for (const Buffer<Real>* values : {&out.points, &out.limit_points, &out.du, &out.dv, &out.normals})
-    if (auto finite = check_finite(*values, pacer); !finite) return finite.error();
+    if (auto finite = check_finite(std::span<const Real>(*values), pacer); !finite) return finite.error();
   return out;
 }
 

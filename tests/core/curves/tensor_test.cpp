@@ -729,7 +729,7 @@ TEST(PatchRefine, stops_in_the_middle_of_a_step) {
   EXPECT_LT(Budget::Clock::now() - budget.deadline, std::chrono::seconds(1));
 }
 
-TEST(Tensor, normals_of_tangents_that_outgrow_their_type_are_refused) {
+TEST(PatchNormals, of_tangents_that_outgrow_their_type_are_refused) {
   ControlPatch patch;
   patch.u_count = patch.v_count = 3;
   for (int j = 0; j < 3; ++j)
