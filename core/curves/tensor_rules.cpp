@@ -1,7 +1,9 @@
 #include "core/curves/tensor_rules.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace subdivd {
 namespace {
@@ -63,33 +65,47 @@ Taps tangent_taps(const Direction& d, Count i) {
   return {{before, after, i}, {b, a, -(b + a)}};
 }
 
+namespace {
+
+double largest(const std::array<double, 3>& a) {
+  return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+}
+
+// The power of two that takes x > 0 to between 1 and 4, or as near as a double gets. Multiplying with it
+// rounds nothing.
+double to_one(double x) {
+  constexpr std::uint64_t kMantissa = 52, kTwiceBias = 2046;
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) >> kMantissa;
+  return std::bit_cast<double>(std::max<std::uint64_t>(kTwiceBias - exponent, 1) << kMantissa);
+}
+
+}  // namespace
+
 std::array<double, 3> normal_of(const std::array<double, 3>& at, const std::array<double, 3>& du,
                                 const std::array<double, 3>& dv, double scale, double epsilon) {
-  auto largest = [](const std::array<double, 3>& a) {
-    return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-  };
   const double u_size = largest(du), v_size = largest(dv);
   if (u_size == 0 || v_size == 0) return {0, 0, 0};
+  const double u_factor = to_one(u_size), v_factor = to_one(v_size);
   std::array<double, 3> u, v, u_error, v_error, n;
-  for (std::size_t k = 0; k < 3; ++k) {  // both of size 1: products neither overflow nor vanish
-    u[k] = du[k] / u_size, v[k] = dv[k] / v_size;
+  for (std::size_t k = 0; k < 3; ++k) {  // both of about size 1: products neither overflow nor vanish
+    u[k] = du[k] * u_factor, v[k] = dv[k] * v_factor;
     u_error[k] =
-        16 * epsilon * (std::abs(at[k]) / u_size * scale + std::abs(u[k]) + std::abs(dv[k]) / u_size);
+        16 * epsilon * (std::abs(at[k]) * u_factor * scale + std::abs(u[k]) + std::abs(dv[k]) * u_factor);
     v_error[k] =
-        16 * epsilon * (std::abs(at[k]) / v_size * scale + std::abs(v[k]) + std::abs(du[k]) / v_size);
+        16 * epsilon * (std::abs(at[k]) * v_factor * scale + std::abs(v[k]) + std::abs(du[k]) * v_factor);
   }
   bool sound = false;
+  double square = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
     n[k] = u[a] * v[b] - u[b] * v[a];
+    square += n[k] * n[k];
     const double error = std::abs(u[a]) * v_error[b] + u_error[a] * std::abs(v[b]) +
                          std::abs(u[b]) * v_error[a] + u_error[b] * std::abs(v[a]);
-    if (std::abs(n[k]) > error) sound = true;
+    sound |= std::abs(n[k]) > error;
   }
   if (!sound) return {0, 0, 0};
-  const double size = largest(n);
-  for (double& x : n) x /= size;
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  const double length = std::sqrt(square);
   return {n[0] / length, n[1] / length, n[2] / length};
 }
 

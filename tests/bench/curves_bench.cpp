@@ -1,6 +1,6 @@
-// Curves: refinement beside a copy of the answer, evaluation at many parameters beside the definition of the
-// basis, which asks every control point. "ns" is the time per point of the answer or per parameter; "ratio"
-// is measured in the same round, one beside the other.
+// Curves and B-spline surfaces: refinement beside a copy of the answer, evaluation at many parameters beside
+// the definition of the basis, which asks every control point. "ns" is the time per point of the answer or
+// per parameter; "ratio" is measured in the same round, one beside the other.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "core/curves/bspline.h"
 #include "core/curves/local_subdivision.h"
 #include "core/curves/subdivision.h"
+#include "core/curves/tensor.h"
 
 namespace subdivd {
 namespace {
@@ -118,6 +119,29 @@ void evaluate_beside_all_functions(benchmark::State& state, bool in_order) {
   state.counters["ratio"] = naive / ours;
 }
 
+// A torus with quads beside a copy of its arrays, both into memory that has just been got.
+void refine_surface_beside_memcpy(benchmark::State& state, Index degree, bool normals) {
+  const auto n = static_cast<Index>(state.range(0));
+  const ControlPatch patch{
+      "", n, n, degree, degree, CurveWrap::periodic, CurveWrap::periodic, 3, wave(Count{n} * n, 3)};
+  const PatchOptions options{
+      .level = static_cast<Index>(state.range(1)), .normals = normals, .faces = PatchFaces::quads};
+  const Count bytes = *predict_bytes<double>(patch, options);
+  const Buffer<char> like(bytes, 1);
+  std::vector<double> ours, copied;
+  for (auto _ : state) {
+    ours.push_back(seconds([&] { benchmark::DoNotOptimize(refine<double>(patch, options, {})); }));
+    copied.push_back(seconds([&] {
+      Buffer<char> copy(bytes);
+      std::memcpy(copy.data(), like.data(), bytes);
+      benchmark::DoNotOptimize(copy.data());
+    }));
+  }
+  const Count points = (Count{n} * n) << (2 * options.level);
+  state.counters["ns"] = median(ours) * 1e9 / static_cast<double>(points);
+  state.counters["times_memcpy"] = median(ours) / median(copied);
+}
+
 // Point and derivative at parameters of 52 bits.
 void evaluate_four_point(benchmark::State& state) {
   ControlCurves curves;
@@ -143,6 +167,14 @@ BENCHMARK_CAPTURE(refine_beside_memcpy, chaikin, 2)
 BENCHMARK_CAPTURE(refine_beside_memcpy, quintic, 5)
     ->Args({1'000'000, 3})
     ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(refine_surface_beside_memcpy, bicubic, 3, false)
+    ->Args({128, 4})
+    ->Iterations(9)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(refine_surface_beside_memcpy, bicubic_normals, 3, true)
+    ->Args({128, 4})
+    ->Iterations(9)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(evaluate_four_point);
 BENCHMARK_CAPTURE(evaluate_beside_all_functions, in_order, true)
