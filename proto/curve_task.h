@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/curves/arc_length.h"
-#include "core/curves/bounds.h"
-#include "core/curves/closest.h"
 #include "core/curves/convergence.h"
-#include "core/curves/differential.h"
-#include "core/curves/flatten.h"
-#include "core/curves/tensor.h"
+#include "core/splines/arc_length.h"
+#include "core/splines/bounds.h"
+#include "core/splines/closest.h"
+#include "core/splines/differential.h"
+#include "core/splines/flatten.h"
+#include "core/surfaces/patch.h"
 #include "proto/decode.h"
 #include "proto/wire.h"
 

@@ -13,11 +13,11 @@
 
 #include "core/base/index.h"
 #include "core/curves/subdivision.h"
-#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"
 #include "core/refine/refined_mesh.h"
+#include "core/surfaces/patch.h"
 
 namespace subdivd::proto {
 

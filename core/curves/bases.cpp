@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "core/curves/bezier.h"
-#include "core/curves/degree.h"
-#include "core/curves/edit.h"
+#include "core/splines/bezier.h"
+#include "core/splines/degree.h"
+#include "core/splines/edit.h"
 
 namespace subdivd {
 namespace {

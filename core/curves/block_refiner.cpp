@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/curves/all_finite.h"
-#include "core/curves/precision.h"
+#include "core/base/all_finite.h"
+#include "core/base/precision.h"
 
 namespace subdivd {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/precision.h"
 #include "core/curves/lane_riesenfeld.h"
-#include "core/curves/precision.h"
 #include "core/curves/subdivision.h"
 
 namespace subdivd {

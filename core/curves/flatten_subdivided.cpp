@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/curves/all_finite.h"
-#include "core/curves/bounds.h"
-#include "core/curves/chord.h"
+#include "core/base/all_finite.h"
+#include "core/base/precision.h"
 #include "core/curves/corner_cutting.h"
 #include "core/curves/curve_window.h"
 #include "core/curves/four_point.h"
-#include "core/curves/measurement.h"
-#include "core/curves/precision.h"
+#include "core/splines/bounds.h"
+#include "core/splines/chord.h"
+#include "core/splines/measurement.h"
 
 namespace subdivd {
 namespace {

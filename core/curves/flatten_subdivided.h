@@ -3,8 +3,8 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
-#include "core/curves/flatten.h"
 #include "core/curves/local_subdivision.h"
+#include "core/splines/flatten.h"
 
 namespace subdivd {
 

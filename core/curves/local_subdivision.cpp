@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/curves/all_finite.h"
+#include "core/base/all_finite.h"
+#include "core/base/precision.h"
 #include "core/curves/curve_window.h"
-#include "core/curves/measurement.h"
-#include "core/curves/precision.h"
+#include "core/splines/measurement.h"
 
 namespace subdivd {
 namespace {

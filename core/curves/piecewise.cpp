@@ -5,12 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/precision.h"
 #include "core/curves/bases.h"
-#include "core/curves/bezier.h"
-#include "core/curves/bspline.h"
-#include "core/curves/edit.h"
-#include "core/curves/knot_insertion.h"
-#include "core/curves/precision.h"
+#include "core/splines/bezier.h"
+#include "core/splines/bspline.h"
+#include "core/splines/edit.h"
+#include "core/splines/knot_insertion.h"
 
 namespace subdivd {
 namespace {

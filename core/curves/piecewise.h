@@ -9,8 +9,8 @@
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/control_curve.h"
-#include "core/curves/spline.h"
 #include "core/curves/subdivision.h"
+#include "core/splines/spline.h"
 
 namespace subdivd {
 

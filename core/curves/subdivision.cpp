@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "core/curves/all_finite.h"
+#include "core/base/all_finite.h"
+#include "core/base/precision.h"
 #include "core/curves/block_refiner.h"
 #include "core/curves/limit_pass.h"
 #include "core/curves/piecewise.h"
-#include "core/curves/precision.h"
 
 namespace subdivd {
 namespace {

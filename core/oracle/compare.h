@@ -2,7 +2,6 @@
 // Our refined levels against the same levels by Far.
 
 #include "core/curves/subdivision.h"
-#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_curves.h"
@@ -10,6 +9,7 @@
 #include "core/oracle/report.h"
 #include "core/oracle/scale.h"
 #include "core/refine/refined_mesh.h"
+#include "core/surfaces/patch.h"
 
 namespace subdivd::oracle {
 

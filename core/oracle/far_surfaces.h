@@ -6,7 +6,7 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
-#include "core/curves/tensor.h"
+#include "core/surfaces/patch.h"
 
 namespace subdivd::oracle {
 

@@ -8,10 +8,10 @@
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/subdivision.h"
-#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/report.h"
 #include "core/refine/refine.h"
+#include "core/surfaces/patch.h"
 
 namespace subdivd::oracle {
 

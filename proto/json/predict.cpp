@@ -1,8 +1,8 @@
 #include <string>
 
-#include "core/curves/spline.h"
 #include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
+#include "core/splines/spline.h"
 #include "proto/json/json.h"
 
 namespace subdivd::proto::json {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "core/curves/spline.h"
+#include "core/splines/spline.h"
 #include "proto/json/read_mesh.h"
 #include "proto/json/words.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/curves/control_curve.h"
-#include "core/curves/tensor.h"
 #include "core/mesh/control_mesh.h"
+#include "core/surfaces/patch.h"
 #include "proto/json/arrays.h"
 #include "proto/json/cursor.h"
 #include "proto/wire.h"

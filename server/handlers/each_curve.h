@@ -8,8 +8,8 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
-#include "core/curves/arc_length.h"
 #include "core/curves/piecewise.h"
+#include "core/splines/arc_length.h"
 #include "proto/curve_task.h"
 #include "proto/prepare.h"
 

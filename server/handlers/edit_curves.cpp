@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "core/curves/bases.h"
-#include "core/curves/degree.h"
-#include "core/curves/edit.h"
-#include "core/curves/knot_insertion.h"
-#include "core/curves/knot_removal.h"
 #include "core/curves/piecewise.h"
+#include "core/splines/degree.h"
+#include "core/splines/edit.h"
+#include "core/splines/knot_insertion.h"
+#include "core/splines/knot_removal.h"
 #include "server/handlers/compute_curves.h"
 #include "server/handlers/each_curve.h"
 

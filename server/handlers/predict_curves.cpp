@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/curves/spline.h"
+#include "core/splines/spline.h"
 #include "server/handlers/compute_curves.h"
 #include "server/handlers/each_curve.h"
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <variant>
 
-#include "core/curves/bspline.h"
-#include "core/curves/differential.h"
-#include "core/curves/tensor.h"
+#include "core/splines/bspline.h"
+#include "core/splines/differential.h"
+#include "core/surfaces/patch.h"
 #include "proto/prepare.h"
 #include "server/handlers/compute_curves.h"
 #include "server/handlers/drawn_curve.h"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/base/buffer.h"
-#include "core/curves/bspline.h"
 #include "core/curves/local_subdivision.h"
 #include "core/curves/subdivision.h"
-#include "core/curves/tensor.h"
+#include "core/splines/bspline.h"
+#include "core/surfaces/patch.h"
 
 namespace subdivd {
 namespace {

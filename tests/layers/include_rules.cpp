@@ -21,15 +21,17 @@ struct Layer {
 // clang-format off
 const std::vector<Layer> kLayers = {
   {"core/base",        {"core/base/"}, {"sys/mman.h"}},  // huge pages
-  {"core/curves",      {"core/base/", "core/curves/"}, {}},
+  {"core/splines",     {"core/base/", "core/splines/"}, {}},
+  {"core/curves",      {"core/base/", "core/splines/", "core/curves/"}, {}},
+  {"core/surfaces",    {"core/base/", "core/curves/", "core/surfaces/"}, {}},
   {"core/mesh",        {"core/base/", "core/mesh/"}, {}},
   {"core/schemes",     {"core/base/", "core/mesh/", "core/schemes/"}, {}},
-  {"core/analysis",    {"core/base/", "core/mesh/", "core/schemes/", "core/curves/", "core/analysis/"}, {}},
+  {"core/analysis",    {"core/base/", "core/mesh/", "core/schemes/", "core/splines/", "core/curves/", "core/analysis/"}, {}},
   {"core/limit",       {"core/base/", "core/mesh/", "core/schemes/", "core/limit/"}, {}},
   {"core/refine",      {"core/base/", "core/mesh/", "core/schemes/", "core/limit/", "core/refine/"}, {}},
   {"core/tessellate",  {"core/base/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/"}, {}},
-  {"core/oracle",      {"core/base/", "core/mesh/", "core/refine/", "core/limit/", "core/curves/", "core/oracle/"}, {"opensubdiv/"}},
-  {"proto",            {"core/base/", "core/curves/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/",
+  {"core/oracle",      {"core/base/", "core/mesh/", "core/refine/", "core/limit/", "core/curves/", "core/surfaces/", "core/oracle/"}, {"opensubdiv/"}},
+  {"proto",            {"core/base/", "core/splines/", "core/curves/", "core/surfaces/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/",
                         "core/analysis/", "core/oracle/report.h", "proto/"}, {"nlohmann/", "simdjson.h", "tiny_gltf.h"}},
   {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "POSIX"}},
   {"server/transport", {"core/base/", "proto/", "server/"}, {"httplib.h", "spdlog/", "openssl/", "POSIX"}},

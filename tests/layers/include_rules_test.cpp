@@ -28,8 +28,8 @@ class IncludeRules : public ::testing::Test {
     fs::remove_all(root_);
     for (const char* header :
          {"core/base/result.h", "core/mesh/topology.h", "core/refine/split.h", "core/limit/limit.h",
-          "core/curves/bspline.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
-          "server/config.h", "server/transport/transport.h"})
+          "core/splines/bspline.h", "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h",
+          "proto/wire.h", "server/config.h", "server/transport/transport.h"})
       write(header, "#pragma once");
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -56,6 +56,14 @@ auto one_at(const std::string& file, const std::string& what) {
 TEST(ThisTree, draws_only_the_arrows_of_the_design) {
   for (const Violation& v : check_includes(SUBDIVD_SOURCE_DIR))
     ADD_FAILURE() << v.file << ":" << v.line << ": " << v.what;
+}
+
+TEST_F(IncludeRules, curves_know_splines_and_not_the_other_way_round) {
+  EXPECT_THAT(planted("core/curves/a.cpp", "#include \"core/splines/bspline.h\""), IsEmpty());
+}
+TEST_F(IncludeRules, refuses_a_curve_among_the_splines) {
+  EXPECT_THAT(planted("core/splines/a.cpp", "#include \"core/curves/subdivision.h\""),
+              one_at("core/splines/a.cpp", "core/curves/subdivision.h"));
 }
 
 TEST_F(IncludeRules, accepts_a_tree_without_strays) { EXPECT_THAT(check_includes(root_), IsEmpty()); }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/curves/edit.h"
-#include "tests/core/curves/sample_splines.h"
+#include "core/splines/edit.h"
+#include "tests/core/splines/sample_splines.h"
 
 namespace subdivd {
 namespace {

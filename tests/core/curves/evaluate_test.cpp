@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/curves/bspline.h"
 #include "core/curves/piecewise.h"
 #include "core/curves/subdivision.h"
+#include "core/splines/bspline.h"
 #include "tests/core/curves/knot_reference.h"
 #include "tests/core/curves/sample_curves.h"
 

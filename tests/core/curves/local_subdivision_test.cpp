@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/curves/bspline.h"
+#include "core/splines/bspline.h"
 #include "tests/core/curves/sample_curves.h"
 
 namespace subdivd::testing {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/curves/tensor.h"
+#include "core/surfaces/patch.h"
 #include "tests/core/oracle/fixtures.h"
 #include "tests/shapes/random.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/curves/spline.h"
 #include "core/curves/subdivision.h"
+#include "core/splines/spline.h"
 
 namespace subdivd::testing {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/curves/bspline.h"
+#include "core/splines/bspline.h"
 #include "tests/properties/curves/kinds.h"
 #include "tests/shapes/random.h"
 

@@ -1,0 +1,255 @@
+#include "core/splines/arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/precision.h"
+#include "core/splines/bounds.h"
+#include "core/splines/measurement.h"
+#include "core/splines/speed_piece.h"
+
+namespace subdivd {
+namespace {
+
+// --- A curve in measured pieces ---------------------------------------------------------------------------
+
+struct Measured {
+  SpeedPiece piece;
+  Interval length;
+  // Of a heap whose front gains most by halving; the parameter makes the order unique.
+  bool operator<(const Measured& other) const {
+    const double mine = length.gain(), others = other.length.gain();
+    return mine != others ? mine < others : piece.derivative.begin > other.piece.derivative.begin;
+  }
+};
+
+struct Survey {
+  std::vector<Measured> pieces;  // a heap, until put in order
+  int exponent = 0;              // lengths are times 2^exponent
+  double length = 0, bound = 0;
+};
+
+void add_up(Survey& survey) {
+  survey.length = survey.bound = 0;
+  for (const Measured& one : survey.pieces) {
+    survey.length += one.length.middle();
+    survey.bound += one.length.half() + one.length.rounding;
+  }
+  survey.bound += static_cast<double>(survey.pieces.size()) * kRoundoff * (survey.length + survey.bound);
+}
+
+// The spans between a and b as they are, each in coordinates of its own, so that rounding is relative to it.
+Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, double b,
+                            const Budget& budget) {
+  Survey survey;
+  std::vector<int> exponents;
+  const Count first = find_span(spline, a), last = find_span(spline, b);
+  for (Count span = first; span <= last; ++span) {
+    const double begin = spline.knots[span], end = spline.knots[span + 1];
+    const double from = std::max(a, begin), to = std::min(b, end);
+    if (!(from < to)) continue;
+    if (survey.pieces.size() % kPiecesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    const Result<LocalSpline> local = localized(window(spline, span));
+    if (!local) return local.error();
+    SpeedPiece piece = ruler.piece_of(*local);
+    if (from > begin || to < end) {
+      piece = ruler.part(piece, (from - begin) / (end - begin), (to - begin) / (end - begin));
+      piece.derivative.begin = from;
+      piece.derivative.end = to;
+      piece.width = (to - from) / (end - begin);
+    }
+    survey.pieces.push_back({std::move(piece), {}});
+    exponents.push_back(local->exponent);
+  }
+  if (exponents.empty()) return survey;
+  survey.exponent = *std::ranges::max_element(exponents);
+  for (Count i = 0; i < exponents.size(); ++i) {
+    Measured& one = survey.pieces[i];
+    one.piece.width = std::ldexp(one.piece.width, exponents[i] - survey.exponent);
+    one.length = ruler.measure(one.piece);
+  }
+  return survey;
+}
+
+Error not_reached(const Survey& survey, const LengthOptions& options, bool by_rounding) {
+  const double reached = survey.bound / survey.length;
+  std::string message = "the length is known to " + (std::isfinite(reached) ? brief(reached) : "no part") +
+                        " of itself after " + std::to_string(survey.pieces.size()) + " pieces, ";
+  message += by_rounding ? "and rounding allows no better"
+                         : "and " + std::to_string(options.max_pieces) + " pieces are allowed";
+  message += "; a tolerance of " + brief(options.tolerance) + " was asked for: choose a larger one";
+  Error error = refusal(by_rounding ? ErrorCode::out_of_range : ErrorCode::too_large, std::move(message),
+                        {"tolerance"});
+  if (!by_rounding) {
+    error.predicted = survey.pieces.size() + 1;
+    error.allowed = options.max_pieces;
+  }
+  return error;
+}
+
+Result<Survey> survey_of(const Spline& spline, const Ruler& ruler, double a, double b,
+                         const LengthOptions& options, const Budget& budget) {
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
+    return refusal(ErrorCode::out_of_range, "the tolerance must be a finite number above 0", {"tolerance"});
+  Result<Survey> surveyed = first_survey(spline, ruler, a, b, budget);
+  if (!surveyed) return surveyed;
+  Survey& survey = *surveyed;
+  std::make_heap(survey.pieces.begin(), survey.pieces.end());
+  add_up(survey);
+  double running = survey.bound;  // kept up to date piece by piece; add_up has the last word
+  for (Count steps = 1;; ++steps) {
+    if (running <= options.tolerance * survey.length || steps % 4096 == 0) {
+      add_up(survey);
+      running = survey.bound;
+      if (survey.bound <= options.tolerance * survey.length) return surveyed;
+    }
+    // A piece that halving no longer helps has an interval of the size of its rounding.
+    const Measured& widest = survey.pieces.front();
+    const bool by_rounding = !widest.length.uneven && widest.length.half() <= widest.length.rounding;
+    if (by_rounding || survey.pieces.size() >= options.max_pieces) {
+      add_up(survey);
+      if (survey.bound <= options.tolerance * survey.length) return surveyed;
+      return not_reached(survey, options, by_rounding);
+    }
+    if (steps % kPiecesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    std::pop_heap(survey.pieces.begin(), survey.pieces.end());
+    const Measured old = std::move(survey.pieces.back());
+    survey.pieces.pop_back();
+    running -= old.length.half() + old.length.rounding;
+    survey.length -= old.length.middle();
+    for (SpeedPiece& half : ruler.halves(old.piece)) {
+      const Interval length = ruler.measure(half);
+      running += length.half() + length.rounding;
+      survey.length += length.middle();
+      survey.pieces.push_back({std::move(half), length});
+      std::push_heap(survey.pieces.begin(), survey.pieces.end());
+    }
+  }
+}
+
+// --- Parameters -------------------------------------------------------------------------------------------
+
+// Pieces in the order of the curve, and how long it is up to the end of each.
+struct Milestones {
+  Survey survey;
+  std::vector<double> ends;
+
+  explicit Milestones(Survey made) : survey(std::move(made)) {
+    std::ranges::sort(survey.pieces, {}, [](const Measured& one) { return one.piece.derivative.begin; });
+    double sum = 0;
+    for (const Measured& one : survey.pieces) ends.push_back(sum += one.length.middle());
+  }
+  double total() const { return ends.empty() ? 0 : ends.back(); }
+};
+
+// Newton's method for the length from the piece's begin to u, with bisection where it would leave what
+// brackets the answer. The part is measured as its piece has been: its chord and polygon are closer together
+// than those of the whole; that its Gauss interval is no wider either is tested, not proved.
+double share_at_length(const Ruler& ruler, const Measured& one, double length, double accuracy) {
+  double low = 0, high = 1, u = std::clamp(length / one.length.middle(), 0.0, 1.0);
+  for (int step = 0; step < 100 && low < u && u < high; ++step) {
+    const SpeedPiece part = ruler.part(one.piece, 0, u);
+    const double excess = ruler.measure(part).middle() - length;
+    if (std::abs(excess) <= accuracy) return u;
+    (excess > 0 ? high : low) = u;
+    const double slope = one.piece.width * ruler.speed_at_end(part);
+    const double next = u - excess / slope;
+    u = next > low && next < high ? next : low / 2 + high / 2;  // also where the slope is 0
+  }
+  return u;
+}
+
+double parameter_at(const Ruler& ruler, const Milestones& milestones, double length) {
+  const auto found = std::ranges::lower_bound(milestones.ends, length);
+  const Count i =
+      std::min<Count>(static_cast<Count>(found - milestones.ends.begin()), milestones.ends.size() - 1);
+  const Measured& one = milestones.survey.pieces[i];
+  const double begin = one.piece.derivative.begin, end = one.piece.derivative.end;
+  const double rest = length - (i == 0 ? 0 : milestones.ends[i - 1]);
+  if (!(rest > 0)) return begin;
+  if (length >= milestones.ends[i]) return end;
+  const double u = share_at_length(ruler, one, rest, 4 * kRoundoff * milestones.total());
+  return std::clamp(begin + u * (end - begin), begin, end);
+}
+
+}  // namespace
+
+Result<ArcLength> arc_length(const Spline& spline, double a, double b, const LengthOptions& options,
+                             const Budget& budget) {
+  if (!(a >= spline.begin() && a <= spline.end()))
+    return refusal(ErrorCode::out_of_range, "the length must be asked for from within the curve's domain",
+                   {"from"});
+  if (!(b >= a && b <= spline.end()))
+    return refusal(
+        ErrorCode::out_of_range,
+        "the length must be asked for up to the same or a later parameter within the curve's domain", {"to"});
+  const Ruler ruler(spline);
+  const Result<Survey> survey = survey_of(spline, ruler, a, b, options, budget);
+  if (!survey) return survey.error();
+  const double length = std::ldexp(survey->length, survey->exponent);
+  const double bound = std::ldexp(survey->bound, survey->exponent);
+  if (!std::isfinite(length) || !std::isfinite(bound)) return does_not_fit();
+  return ArcLength{length, bound, survey->pieces.size()};
+}
+
+Result<ArcLength> arc_length(const Spline& spline, const LengthOptions& options, const Budget& budget) {
+  return arc_length(spline, spline.begin(), spline.end(), options, budget);
+}
+
+Result<double> parameter_at_length(const Spline& spline, double length, const LengthOptions& options,
+                                   const Budget& budget) {
+  if (!std::isfinite(length))
+    return refusal(ErrorCode::not_finite, "the length is not a finite number", {"length"});
+  const Ruler ruler(spline);
+  Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget);
+  if (!survey) return survey.error();
+  const double bound = survey->bound;
+  const Milestones milestones(*std::move(survey));
+  const double wanted = std::ldexp(length, -milestones.survey.exponent);
+  if (!(wanted >= 0 && wanted <= milestones.total() + bound))
+    return refusal(ErrorCode::out_of_range,
+                   "the length must be 0 to that of the curve, " +
+                       brief(std::ldexp(milestones.total(), milestones.survey.exponent)),
+                   {"length"});
+  if (wanted >= milestones.total() && wanted > 0) return spline.end();
+  return parameter_at(ruler, milestones, wanted);
+}
+
+Result<std::vector<double>> equal_parameters(const Spline& spline, Count count, const LengthOptions& options,
+                                             const Budget& budget) {
+  const Count least = spline.periodic ? 1 : 2;
+  if (count < least || count > kMaxIndexCount)
+    return refusal(ErrorCode::out_of_range,
+                   "there must be " + std::to_string(least) + " to " + std::to_string(kMaxIndexCount) +
+                       " parameters; " + std::to_string(count) + " were asked for",
+                   {"count"});
+  if (auto allowed = budget.check_bytes(count * sizeof(double)); !allowed) return allowed.error();
+  const Ruler ruler(spline);
+  Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget);
+  if (!survey) return survey.error();
+  const Milestones milestones(*std::move(survey));
+  const double total = milestones.total(), begin = spline.begin(), end = spline.end();
+  const double steps = static_cast<double>(spline.periodic ? count : count - 1);
+  std::vector<double> parameters;
+  parameters.reserve(count);
+  for (Count i = 0; i < count; ++i) {
+    if (i % kPiecesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
+    const double share = static_cast<double>(i) / steps;
+    if (i == 0)
+      parameters.push_back(begin);
+    else if (!spline.periodic && i + 1 == count)
+      parameters.push_back(end);
+    else
+      parameters.push_back(total > 0 ? parameter_at(ruler, milestones, share * total)
+                                     : begin + share * (end - begin));
+  }
+  // Neighbours closer than the accuracy may have come out in the wrong order.
+  for (Count i = 1; i < count; ++i) parameters[i] = std::max(parameters[i], parameters[i - 1]);
+  return parameters;
+}
+
+}  // namespace subdivd

@@ -1,0 +1,36 @@
+#pragma once
+// Bezier pieces: one polynomial (or quotient of two) each, inside the convex hull of its control points. What
+// bounds, distances and lengths are worked out on.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/splines/spline.h"
+
+namespace subdivd {
+
+// One piece of a spline over [begin, end]: degree + 1 points of `width` scalars, homogeneous where the spline
+// is rational.
+struct BezierPiece {
+  double begin = 0, end = 1;
+  std::vector<double> points;
+};
+
+// All pieces, in order, by inserting every knot until it stands `degree` times.   [PieglTiller97, A5.6]
+std::vector<BezierPiece> bezier_pieces(const Spline& spline);
+
+// The two halves of a piece.   [de Casteljau]
+std::array<BezierPiece, 2> halves(const BezierPiece& piece, Index width);
+// The piece at the parameter `t` of the spline, begin <= t <= end: width scalars, homogeneous.
+void evaluate(const BezierPiece& piece, Index width, double t, std::span<double> point);
+
+// Coordinates of control point i: divided by the weight where there is one.
+void project(std::span<const double> stored, bool rational, std::span<double> coordinates);
+
+// A spline of pieces of degree `degree` that follow one another: every inner knot stands `degree` times. The
+// last point of a piece and the first of the next must agree (assumed; the next one's is taken).
+Spline spline_of(std::span<const BezierPiece> pieces, Index degree, Index width, bool rational);
+
+}  // namespace subdivd

@@ -1,0 +1,157 @@
+#include "core/splines/edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/splines/degree.h"
+#include "core/splines/knot_insertion.h"
+
+namespace subdivd {
+namespace {
+
+Error outside(double t, const Spline& spline, Path where) {
+  return Error{ErrorCode::out_of_range,
+               "the parameter " + std::to_string(t) + " lies outside the domain, " +
+                   std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
+               std::move(where), 0, 0};
+}
+
+// Knots that make t stand `degree` times.
+std::vector<double> missing(const Spline& spline, double t) {
+  const Index there = multiplicity(spline.knots, t);
+  return std::vector<double>(there < spline.degree ? spline.degree - there : 0, t);
+}
+
+void make_rational(Spline& spline) {
+  if (spline.rational) return;
+  const std::vector<double> ones(spline.point_count(), 1.0);
+  spline.points = homogeneous(spline.points, spline.width, ones);
+  spline.rational = true;
+  ++spline.width;
+}
+
+// Distance of where one ends from where the other starts.
+double distance(std::span<const double> a, std::span<const double> b, bool rational) {
+  const Count dimension = a.size() - (rational ? 1 : 0);
+  double result = 0;
+  for (Count k = 0; k < dimension; ++k)
+    result = std::hypot(result, rational ? a[k] / a[dimension] - b[k] / b[dimension] : a[k] - b[k]);
+  return result;
+}
+
+}  // namespace
+
+Result<Spline> part(const Spline& spline, double from, double to) {
+  if (!(from >= spline.begin() && from < spline.end())) return outside(from, spline, {"from"});
+  if (!(to > spline.begin() && to <= spline.end())) return outside(to, spline, {"to"});
+  if (!(from < to)) return Error{ErrorCode::out_of_range, "the part must end behind its start", {"to"}, 0, 0};
+  std::vector<double> knots = missing(spline, from);
+  for (const double t : missing(spline, to)) knots.push_back(t);
+  auto refined = refine_knots(spline, knots, {});
+  if (!refined) return std::move(refined).error();
+  const Index p = spline.degree;
+  // The last knot at `from` and the first at `to`: the points of the spans between them.
+  const auto first =
+      static_cast<Count>(std::ranges::upper_bound(refined->knots, from) - refined->knots.begin()) - 1;
+  const auto last = static_cast<Count>(std::ranges::lower_bound(refined->knots, to) - refined->knots.begin());
+  Spline piece{p, spline.width, spline.rational, false, {}, {}};
+  piece.knots.assign(p + 1, from);
+  piece.knots.insert(piece.knots.end(), refined->knots.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                     refined->knots.begin() + static_cast<std::ptrdiff_t>(last));
+  piece.knots.insert(piece.knots.end(), p + 1, to);
+  piece.points.assign(refined->points.begin() + static_cast<std::ptrdiff_t>((first - p) * spline.width),
+                      refined->points.begin() + static_cast<std::ptrdiff_t>(last * spline.width));
+  return piece;
+}
+
+Result<std::array<Spline, 2>> split(const Spline& spline, double t) {
+  if (!(t > spline.begin() && t < spline.end())) return outside(t, spline, {});
+  auto before = part(spline, spline.begin(), t);
+  if (!before) return std::move(before).error();
+  auto behind = part(spline, t, spline.end());
+  if (!behind) return std::move(behind).error();
+  return std::array<Spline, 2>{*std::move(before), *std::move(behind)};
+}
+
+Result<Spline> join(const Spline& first, const Spline& second, double gap, const Budget& budget) {
+  if (first.dimension() != second.dimension())
+    return Error{ErrorCode::wrong_length,
+                 "points of " + std::to_string(first.dimension()) + " and of " +
+                     std::to_string(second.dimension()) + " coordinates cannot be joined",
+                 {},
+                 0,
+                 0};
+  if (!(gap >= 0)) return Error{ErrorCode::out_of_range, "the gap must be 0 or more", {"gap"}, 0, 0};
+  auto one = part(first, first.begin(), first.end()), other = part(second, second.begin(), second.end());
+  if (!one) return std::move(one).error();
+  if (!other) return std::move(other).error();
+  const Index degree = std::max(first.degree, second.degree);
+  for (auto* spline : {&one, &other}) {
+    *spline = elevate_degree(**spline, degree - (*spline)->degree, budget);
+    if (!*spline) return std::move(*spline).error();
+  }
+  if (one->rational || other->rational) {
+    make_rational(*one);
+    make_rational(*other);
+    const double scale = one->points.back() / other->points[other->width - 1];
+    for (double& x : other->points) x *= scale;
+  }
+  const Index width = one->width;
+  const auto end = one->point(one->point_count() - 1), start = other->point(0);
+  if (const double apart = distance(end, start, one->rational); !(apart <= gap))
+    return Error{ErrorCode::out_of_range,
+                 "the curves are " + std::to_string(apart) + " apart where they should meet; " +
+                     std::to_string(gap) + " are allowed",
+                 {},
+                 0,
+                 0};
+  Spline joined = *std::move(one);
+  const double shift = joined.end() - other->begin();
+  if (!std::isfinite(shift + other->end() - joined.begin()))
+    return Error{ErrorCode::out_of_range, "the parameters of the joined curve would be too large", {}, 0, 0};
+  for (Index k = 0; k < width; ++k) {
+    double& middle = joined.points[joined.points.size() - width + k];
+    middle = middle / 2 + other->points[k] / 2;
+  }
+  joined.points.insert(joined.points.end(), other->points.begin() + width, other->points.end());
+  joined.knots.pop_back();
+  const double meeting = joined.knots.back();
+  for (Count i = degree + 1; i < other->knots.size(); ++i)
+    joined.knots.push_back(std::max(meeting, other->knots[i] + shift));
+  if (auto fine = joined.check(); !fine) return std::move(fine).error();
+  return joined;
+}
+
+Spline reversed(const Spline& spline) {
+  Spline back = spline;
+  for (Count i = 0; i < spline.point_count(); ++i)
+    std::ranges::copy(spline.point(spline.point_count() - 1 - i),
+                      back.points.begin() + static_cast<std::ptrdiff_t>(i * spline.width));
+  const double begin = spline.begin(), end = spline.end();
+  for (Count i = 0; i < spline.knots.size(); ++i) {
+    const double t = spline.knots[spline.knots.size() - 1 - i];
+    // The ends exactly, however they round.
+    back.knots[i] = t == end ? begin : t == begin ? end : begin + (end - t);
+  }
+  return back;
+}
+
+Result<Spline> reparametrized(const Spline& spline, double begin, double end) {
+  if (!(begin < end) || !std::isfinite(begin) || !std::isfinite(end) || !std::isfinite(end - begin))
+    return Error{ErrorCode::out_of_range, "the new domain must have a finite length above 0", {}, 0, 0};
+  Spline moved = spline;
+  const double old_begin = spline.begin(), old_end = spline.end();
+  for (double& t : moved.knots) {
+    const double share = (t - old_begin) / (old_end - old_begin);
+    t = t == old_end ? end : begin + share * (end - begin);
+  }
+  // Knots that are different may have become equal, or have lost their order by a rounding.
+  for (Count i = 1; i < moved.knots.size(); ++i)
+    moved.knots[i] = std::max(moved.knots[i], moved.knots[i - 1]);
+  if (auto fine = moved.check(); !fine) return std::move(fine).error();
+  return moved;
+}
+
+}  // namespace subdivd
