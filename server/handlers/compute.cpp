@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/curves/subdivision.h"
+#include "core/oracle/far_curves.h"
+#include "core/oracle/far_surfaces.h"
 #include "core/oracle/verify.h"
 #include "core/refine/refine.h"
 #include "proto/prepare.h"
@@ -97,6 +99,15 @@ Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request,
   return proto::answer_precision(request) == proto::Precision::single_precision
              ? answer_in<float>(request, budget, timings)
              : answer_in<double>(request, budget, timings);
+}
+
+Count oracle_bytes(const proto::RefineRequest& request) {
+  Count bytes = 0;
+  for (const ControlCurves& curves : request.curves)
+    bytes += oracle::far_curve_bytes(curves, request.options.level);
+  for (const ControlPatch& surface : request.surfaces)
+    bytes += oracle::far_surface_bytes(surface, request.options.level);
+  return bytes;
 }
 
 Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget) {

@@ -13,6 +13,10 @@ namespace subdivd::server {
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
                                             const proto::Timings& timings);
 
+// Bytes that OpenSubdiv takes for the curves and surfaces of the request, which it refines as meshes: many
+// times their own. `request` is one whose refinement has been predicted.
+Count oracle_bytes(const proto::RefineRequest& request);
+
 // Our core against OpenSubdiv, for every mesh, curve and surface of the request.
 Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget);
 

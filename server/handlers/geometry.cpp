@@ -141,8 +141,9 @@ GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying
   if (!predicted) return problem_response(predicted.error());
   const bool with_oracle = verifying || decoded->options.verify;
   auto lease = std::make_shared<Quota::Lease>(memory_);
-  const Count bytes =
-      predicted->answer_bytes + predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor);
+  const Count bytes = predicted->answer_bytes +
+                      predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor) +
+                      (with_oracle ? oracle_bytes(*decoded) : 0);
   if (auto refused = reserve(memory_, *lease, bytes)) return *std::move(refused);
   proto::Timings timings;
   timings.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -316,6 +316,25 @@ TEST(Application, answers_what_is_asked_about_surfaces) {
   EXPECT_TRUE(holds(refused, "\"pointer\":\"/type\""));
   EXPECT_TRUE(holds(asked("/v1/evaluate", R"(,"samples":{"us":[0.5],"vs":[2]})"), "\"/samples/vs/0\""));
 }
+// OpenSubdiv takes hundreds of bytes for a point of a curve or surface: reserved before it begins.
+TEST(Application, reserves_what_verifying_takes) {
+  Config config = quick_config();
+  config.max_memory_bytes = 16'000'000;
+  const RunningApplication server(config);
+  for (
+      const char* body :
+      {R"({"type":"bsplineSurface","uVertexCount":2,"points":[[0,0,0],[1,0,0],[0,1,0],[1,1,1]]})",
+       R"({"type":"cubic","points":[[0],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1]]})"}) {
+    const auto asked = [&](const char* path) {
+      return ask(server.port, post(path, body, "Content-Type: application/json\r\n"));
+    };
+    EXPECT_EQ(asked("/v1/refine?level=8").status, 200);
+    const RawResponse refused = asked("/v1/verify?level=8");
+    EXPECT_EQ(refused.status, 422);
+    EXPECT_TRUE(holds(refused, "bytes of memory")) << refused.body;
+    EXPECT_EQ(asked("/v1/verify?level=3").status, 200);
+  }
+}
 TEST(Application, serves_a_page_that_names_its_version) {
   const RunningApplication server;
   const RawResponse response = ask(server.port, get("/"));

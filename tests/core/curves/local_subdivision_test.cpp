@@ -17,20 +17,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTensions[] = {0.0, 1e-3, 1.0 / 16, 0.1, 0.15, 0.19, 0.1927};
 constexpr double kRatios[] = {0.01, 0.2, 0.25, 0.3, 1.0 / 3, 0.4, 0.49};
 
-ControlCurves four_point(CurveWrap wrap, double tension, Index more, Index width = 2) {
+ControlCurves random_of(CurveBasis basis, CurveWrap wrap, double ControlCurves::*parameter, double value,
+                        Index more, Index width) {
   ControlCurves rule;
-  rule.basis = CurveBasis::four_point;
+  rule.basis = basis;
   rule.wrap = wrap;
-  rule.tension = tension;
+  rule.*parameter = value;
   return random_curve(rule, more, width);
 }
-
+ControlCurves four_point(CurveWrap wrap, double tension, Index more, Index width = 2) {
+  return random_of(CurveBasis::four_point, wrap, &ControlCurves::tension, tension, more, width);
+}
 ControlCurves corner_cutting(CurveWrap wrap, double ratio, Index more, Index width = 2) {
-  ControlCurves rule;
-  rule.basis = CurveBasis::corner_cutting;
-  rule.wrap = wrap;
-  rule.ratio = ratio;
-  return random_curve(rule, more, width);
+  return random_of(CurveBasis::corner_cutting, wrap, &ControlCurves::ratio, ratio, more, width);
 }
 
 // Both schemes, all wraps, few points and more.
