@@ -81,6 +81,7 @@ struct RefineRequest {
   std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
   // JSON only
   bool single_mesh_at_top = false, single_curve_at_top = false, single_surface_at_top = false;
+  bool without_meshes = false;  // the door takes none, and its answers name none
   std::vector<JsonMeshForm> mesh_forms;
   std::vector<ArrayForm> curve_forms, surface_forms;
   // glTF only: meshes and curves of this request belong to source in the order it knows

@@ -286,6 +286,7 @@ class CurveTaskReader {
 
 Result<void> read_task(std::string_view body, const Limits& limits, CurveRequest& request) {
   request.curves.input = Format::json;
+  request.curves.without_meshes = true;
   return read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {
     return CurveTaskReader(cursor, limits, request).read(object);
   });

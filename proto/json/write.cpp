@@ -17,10 +17,10 @@ class AnswerWriter {
   Result<Payload> write(std::string_view envelope) {
     const bool nothing = answer_.meshes.empty() && answer_.curves.empty() && answer_.surfaces.empty();
     text_.open('{');
-    write_parts("meshes", answer_.meshes.size(), request_.single_mesh_at_top, nothing,
-                [&](std::size_t i) { write_mesh(i); });
-    write_parts("curves", answer_.curves.size(), request_.single_curve_at_top, false,
-                [&](std::size_t i) { write_curves(i); });
+    write_parts("meshes", answer_.meshes.size(), request_.single_mesh_at_top,
+                nothing && !request_.without_meshes, [&](std::size_t i) { write_mesh(i); });
+    write_parts("curves", answer_.curves.size(), request_.single_curve_at_top,
+                nothing && request_.without_meshes, [&](std::size_t i) { write_curves(i); });
     write_parts("surfaces", answer_.surfaces.size(), request_.single_surface_at_top, false,
                 [&](std::size_t i) { write_surface(i); });
     if (error_) return *error_;

@@ -131,6 +131,8 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
     }
     const auto done =
         std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, *curve);
+    if (!done && done.error().where == Path{"points"})  // too large, at whatever parameter
+      return proto::blame_input(request.curves, done.error(), "curves", all[number].set);
     if (!done) return at_sample(done.error(), task, k);
   }
   return samples;

@@ -28,6 +28,7 @@ json with(json curve, const json& members) {
   curve.update(members);
   return curve;
 }
+json four_point() { return with(cubic(), {{"basis", "fourPoint"}, {"wrap", "periodic"}}); }
 
 std::string text_of(const proto::Payload& payload) {
   std::string text;
@@ -247,6 +248,19 @@ TEST(CurveTasks, join_makes_one_curve_of_all) {
   EXPECT_EQ(ask(Kind::measure, with(first, {{"join", true}}))["where"], json({"join"}));
 }
 
+TEST(CurveTasks, points_too_large_to_evaluate_are_blamed_and_not_the_parameter) {
+  const json huge = {{"basis", "fourPoint"},
+                     {"points", {{1.7e308}, {-1.7e308}, {1.7e308}, {-1.7e308}}},
+                     {"samples", {{"ts", {0.5}}}}};
+  EXPECT_EQ(ask(Kind::evaluate, huge)["where"], json({"points"}));
+}
+
+TEST(CurveTasks, no_curves_are_an_empty_list_of_curves) {
+  const json answer = ask(Kind::convert, {{"curves", json::array()}, {"join", true}});
+  EXPECT_EQ(answer["curves"], json::array());
+  EXPECT_FALSE(answer.contains("meshes"));
+}
+
 TEST(CurveTasks, large_coordinates_are_no_trouble) {
   json large = cubic();
   for (json& point : large["points"])
@@ -285,7 +299,6 @@ TEST(CurveTasks, stop_when_nobody_waits_and_refuse_what_is_too_large) {
     }
 }
 
-json four_point() { return with(cubic(), {{"basis", "fourPoint"}, {"wrap", "periodic"}}); }
 json cut() { return with(cubic(), {{"basis", "cornerCutting"}, {"ratio", 0.3}, {"wrap", "periodic"}}); }
 
 // Curves without a formula: what exists is answered, the rest refused by name.
