@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/convergence.h"
 #include "core/splines/arc_length.h"
@@ -66,7 +67,7 @@ struct CurveRequest {
 
 // As decode_refine; `kind` says which members the body may have.
 Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
-                                   const Limits& limits);
+                                   const Limits& limits, const Budget& budget = {});
 
 // What evaluate found at every sample on curves.
 struct CurveSamples {
@@ -103,9 +104,12 @@ struct EditedCurves {
   std::vector<double> error_bounds;  // remove_knot, convert: per curve
 };
 
-Payload encode_samples(const CurveRequest& request, const CurveSamples& samples);
-Payload encode_samples(const CurveRequest& request, const SurfaceSamples& samples);
-Payload encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures);
-Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited);
+Result<Payload> encode_samples(const CurveRequest& request, const CurveSamples& samples,
+                               const Budget& budget = {});
+Result<Payload> encode_samples(const CurveRequest& request, const SurfaceSamples& samples,
+                               const Budget& budget = {});
+Result<Payload> encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures,
+                                const Budget& budget = {});
+Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited, const Budget& budget = {});
 
 }  // namespace subdivd::proto

@@ -16,24 +16,24 @@ namespace {
 constexpr std::string_view kGlbMagic = "glTF";
 
 Result<RefineRequest> read_gltf(std::string_view body, Format format, const QueryParameters& query,
-                                const Limits& limits) {
+                                const Limits& limits, [[maybe_unused]] const Budget& budget) {
   Options options;
   if (Result<void> done = set_parameters(options, query); !done) return done.error();
-  return gltf::read(body, format, options, limits);
+  return gltf::read(body, format, options, limits, budget);
 }
 
 Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                const Limits& limits) {
-  Result<RefineRequest> request = json::read(body, limits);
+                                const Limits& limits, [[maybe_unused]] const Budget& budget) {
+  Result<RefineRequest> request = json::read(body, limits, budget);
   if (!request) {
     // A glTF document is JSON, too; looking for its mark only now spares every good request the search.
     if (json::has_member(body, "asset")) {
-      if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits);
+      if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits, budget);
       request.error().message += "; this looks like glTF, whose content type is model/gltf+json";
     }
     // A mesh has neither: the body is one curve or surface, with its members at the top.
     if (!json::has_member(body, "type") && !json::has_member(body, "basis")) return request;
-    request = json::read_curve(body, limits);
+    request = json::read_curve(body, limits, budget);
     if (!request) return request;
   }
   if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
@@ -41,13 +41,13 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
 }
 
 Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const QueryParameters& query,
-                               const Limits& limits) {
+                               const Limits& limits, [[maybe_unused]] const Budget& budget) {
   const bool magic = body.starts_with(kGlbMagic);
   switch (kind) {
     case BodyKind::glb:
-      return read_gltf(body, Format::glb, query, limits);
+      return read_gltf(body, Format::glb, query, limits, budget);
     case BodyKind::unspecified:
-      if (magic) return read_gltf(body, Format::glb, query, limits);
+      if (magic) return read_gltf(body, Format::glb, query, limits, budget);
       break;
     case BodyKind::json:
     case BodyKind::gltf:
@@ -59,8 +59,8 @@ Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const Query
                      0};
       break;
   }
-  if (kind == BodyKind::gltf) return read_gltf(body, Format::gltf, query, limits);
-  return read_json(body, kind, query, limits);
+  if (kind == BodyKind::gltf) return read_gltf(body, Format::gltf, query, limits, budget);
+  return read_json(body, kind, query, limits, budget);
 }
 
 void override_meshes(RefineRequest& request) {
@@ -111,7 +111,7 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
 }  // namespace
 
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                    const Limits& limits) {
+                                    const Limits& limits, [[maybe_unused]] const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
     return Error{ErrorCode::too_large,
                  std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
@@ -119,16 +119,18 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
                  {},
                  body.size(),
                  limits.max_body_bytes};
-  Result<RefineRequest> request = read_any(body, kind, query, limits);
+  Result<RefineRequest> request = read_any(body, kind, query, limits, budget);
   if (!request) return request;
   if (Result<void> fine = check_options(request->options, limits, query); !fine) return fine.error();
   override_meshes(*request);
-  if (Result<void> fine = prepare(*request); !fine) return fine.error();
-  if (answer_format(*request) != Format::json) gltf::add_render_meshes(*request);
+  if (Result<void> fine = prepare(*request, budget); !fine) return fine.error();
+  if (answer_format(*request) != Format::json)
+    if (Result<void> done = gltf::add_render_meshes(*request, budget); !done) return done.error();
   return request;
 }
 
-Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits) {
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
+                                  [[maybe_unused]] const Budget& budget) {
   std::vector<RefinedSize> sizes;
   const Result<Count> working = answer_precision(request) == Precision::single_precision
                                     ? working_bytes<float>(request, sizes)
@@ -149,11 +151,11 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
   return prediction;
 }
 
-Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer) {
+Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, const Budget& budget) {
   const Format format = answer_format(request);
-  if (format == Format::json) return json::write(request, std::move(answer));
+  if (format == Format::json) return json::write(request, std::move(answer), budget);
   const std::string members = json::envelope(request, answer);
-  return gltf::write(request, std::move(answer), format, members);
+  return gltf::write(request, std::move(answer), format, members, budget);
 }
 
 Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,

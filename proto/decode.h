@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "proto/wire.h"
 
@@ -20,9 +21,10 @@ enum class BodyKind { unspecified, json, glb, gltf };
 using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
 // Reads and validates a whole request: body, then query parameters over its options. The body need not be
-// padded. Error::where is a path into the body, or {"?name"} for a query parameter (starts with '?').
+// padded. What it becomes in memory is taken from the budget before it is allocated. Error::where is a path
+// into the body, or {"?name"} for a query parameter (starts with '?').
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                    const Limits& limits);
+                                    const Limits& limits, const Budget& budget = {});
 
 // Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for the JSON
 // text. Refuses what exceeds the limits (too_large with predicted and allowed).
@@ -30,11 +32,12 @@ struct Prediction {
   Count answer_bytes = 0;   // of the body that will be sent (upper bound)
   Count working_bytes = 0;  // of the arrays of the core
 };
-Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits);
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
+                                  const Budget& budget = {});
 
 // The whole answer in the request's answer_format. Consumes the answer: big arrays are moved into the
 // payload.
-Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer);
+Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, const Budget& budget = {});
 
 // The report alone, as POST /v1/verify answers it: JSON whatever came in.
 Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,

@@ -45,21 +45,22 @@ void warn_of_dropped(RefineRequest& request, std::size_t i, const json::FaceHist
                              std::to_string(original));
 }
 
-Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceHistory& history) {
+Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceHistory& history,
+                              const Budget& budget) {
   ControlMesh& mesh = request.meshes[i];
   history.counts = mesh.face_vertex_counts;
   if (request.options.triangulate) {
-    Result<std::vector<Index>> split = triangulate(mesh);
+    Result<std::vector<Index>> split = triangulate(mesh, budget);
     if (!split) return std::move(split).error();
     history.triangulated = std::move(*split);
   }
-  if (mesh.check()) return {};  // most meshes need no repair, and are looked at once
+  if (mesh.check(budget)) return {};  // most meshes need no repair, and are looked at once
   const std::size_t faces = mesh.face_count();
-  Result<std::vector<Index>> kept = drop_degenerate_faces(mesh);
+  Result<std::vector<Index>> kept = drop_degenerate_faces(mesh, budget);
   if (!kept) return std::move(kept).error();
   history.kept = std::move(*kept);
   if (!history.kept.empty()) warn_of_dropped(request, i, history, faces);
-  return mesh.check();
+  return mesh.check(budget);
 }
 
 // What single precision cannot hold would come out infinite.
@@ -84,9 +85,9 @@ Result<void> check_fits(const ControlMesh& mesh) {
   return {};
 }
 
-Result<void> prepare_mesh(RefineRequest& request, std::size_t i) {
+Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
   json::FaceHistory history;
-  Result<void> fine = repair_and_check(request, i, history);
+  Result<void> fine = repair_and_check(request, i, history, budget);
   if (fine && answer_precision(request) == Precision::single_precision) fine = check_fits(request.meshes[i]);
   if (history.changed()) {
     request.face_origins.resize(request.meshes.size());
@@ -101,9 +102,9 @@ Result<void> prepare_mesh(RefineRequest& request, std::size_t i) {
   return blame_input(request, std::move(error), "meshes", i);
 }
 
-Result<void> prepare_curves(RefineRequest& request, std::size_t i) {
+Result<void> prepare_curves(RefineRequest& request, std::size_t i, const Budget& budget) {
   const ControlCurves& curves = request.curves[i];
-  Result<void> fine = curves.check();
+  Result<void> fine = curves.check(budget);
   if (fine && answer_precision(request) == Precision::single_precision) {
     fine = check_fits(curves.points, {"points"});
     // As check() does: the point, not the scalar.
@@ -117,9 +118,9 @@ Result<void> prepare_curves(RefineRequest& request, std::size_t i) {
 }
 
 // The core's places of a surface are the wire's.
-Result<void> prepare_surface(RefineRequest& request, std::size_t i) {
+Result<void> prepare_surface(RefineRequest& request, std::size_t i, const Budget& budget) {
   const ControlPatch& surface = request.surfaces[i];
-  Result<void> fine = surface.check();
+  Result<void> fine = surface.check(budget);
   if (fine && answer_precision(request) == Precision::single_precision)
     fine = check_fits(surface.points, {"points"});
   if (fine) return {};
@@ -154,13 +155,13 @@ Error blame_input(const RefineRequest& request, Error error, const char* of, std
   return error;
 }
 
-Result<void> prepare(RefineRequest& request) {
+Result<void> prepare(RefineRequest& request, const Budget& budget) {
   for (std::size_t i = 0; i < request.meshes.size(); ++i)
-    if (Result<void> fine = prepare_mesh(request, i); !fine) return fine;
+    if (Result<void> fine = prepare_mesh(request, i, budget); !fine) return fine;
   for (std::size_t i = 0; i < request.curves.size(); ++i)
-    if (Result<void> fine = prepare_curves(request, i); !fine) return fine;
+    if (Result<void> fine = prepare_curves(request, i, budget); !fine) return fine;
   for (std::size_t i = 0; i < request.surfaces.size(); ++i)
-    if (Result<void> fine = prepare_surface(request, i); !fine) return fine;
+    if (Result<void> fine = prepare_surface(request, i, budget); !fine) return fine;
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "proto/wire.h"
 
@@ -13,7 +14,7 @@ namespace subdivd::proto {
 // Triangulates (when the options say so), drops degenerate faces with a warning, checks every mesh, curve and
 // surface.
 // Fills face_origins.
-Result<void> prepare(RefineRequest& request);
+Result<void> prepare(RefineRequest& request, const Budget& budget);
 
 // `error` about mesh, curve or surface number `i` (`of`: "meshes", "curves" or "surfaces") with its place in
 // the body: for JSON /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, whose accessors are

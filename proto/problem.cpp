@@ -76,6 +76,8 @@ std::string_view title_of(ErrorCode code) {
       return "The time for the request ran out";
     case ErrorCode::cancelled:
       return "The request was cancelled";
+    case ErrorCode::overloaded:
+      return "The server is busy";
     case ErrorCode::internal:
       return "The server failed";
   }

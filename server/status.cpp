@@ -58,6 +58,7 @@ int status_of(const Error& error) {
       return 400;
     case ErrorCode::deadline_exceeded:
     case ErrorCode::cancelled:
+    case ErrorCode::overloaded:
       return 503;
     case ErrorCode::internal:
       return 500;

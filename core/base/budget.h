@@ -14,6 +14,19 @@
 
 namespace subdivd {
 
+// Memory set aside for one piece of work. Whoever shares memory out between pieces of work implements it.
+class MemoryGrant {
+ public:
+  MemoryGrant() = default;
+  MemoryGrant(const MemoryGrant&) = delete;
+  MemoryGrant& operator=(const MemoryGrant&) = delete;
+  virtual ~MemoryGrant() = default;
+
+  // Sets `bytes` more aside, or says why not: too_large (never), overloaded (not now). May be called from any
+  // thread.
+  virtual Result<void> take(Count bytes) = 0;
+};
+
 class Budget {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,6 +37,8 @@ class Budget {
   Clock::time_point deadline = Clock::time_point::max();
   // Set by another thread when nobody waits for the answer any more; may be null. Must outlive the work.
   const std::atomic<bool>* cancelled = nullptr;
+  // Where memory is taken from; null: there is enough. Must outlive the work.
+  MemoryGrant* memory = nullptr;
 
   // Call every few thousand elementary steps (a relaxed load and a clock read: about 30 ns).
   // Empty: go on. Otherwise the reason to stop, to be returned as it is.
@@ -33,6 +48,13 @@ class Budget {
     if (deadline != Clock::time_point::max() && Clock::now() >= deadline)
       return Error{ErrorCode::deadline_exceeded, "the time allowed for this request ran out", {}, 0, 0};
     return std::nullopt;
+  }
+
+  // To be called before `bytes` are allocated whose size the caller of this work could not know: what
+  // decoding makes of a body, what a declared length asks for. The error is to be returned as it is.
+  Result<void> take_memory(Count bytes) const {
+    if (memory == nullptr) return {};
+    return memory->take(bytes);
   }
 
   // Refuses `bytes` of output when they exceed max_bytes.
@@ -45,6 +67,26 @@ class Budget {
                  bytes,
                  max_bytes};
   }
+};
+
+// Polls a budget once in many steps: for loops whose steps are too short to poll at each.
+class BudgetPoller {
+ public:
+  static constexpr Count kInterval = 4096;  // elementary steps (some 10 ns each) between two polls
+
+  explicit BudgetPoller(const Budget& budget) : budget_(budget) {}
+
+  // Call after (or before) `steps` more steps. Empty: go on. Otherwise the reason to stop.
+  std::optional<Error> spend(Count steps) {
+    spent_ += steps;
+    if (spent_ < kInterval) return std::nullopt;
+    spent_ = 0;
+    return budget_.poll();
+  }
+
+ private:
+  const Budget& budget_;
+  Count spent_ = kInterval;  // the first call polls: a dead caller costs nothing
 };
 
 }  // namespace subdivd

@@ -38,6 +38,8 @@ std::string_view name_of(ErrorCode code) {
       return "deadline_exceeded";
     case ErrorCode::cancelled:
       return "cancelled";
+    case ErrorCode::overloaded:
+      return "overloaded";
     case ErrorCode::internal:
       return "internal";
   }

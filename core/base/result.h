@@ -37,6 +37,7 @@ enum class ErrorCode {
   too_large,          // predicted size is over the allowed one
   deadline_exceeded,  // the time budget ran out
   cancelled,          // the caller went away
+  overloaded,         // others use the memory that the work needs; or the system has none left
   // ours
   internal,
 };

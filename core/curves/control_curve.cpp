@@ -120,7 +120,7 @@ Index least_points(const ControlCurves& curves) {
   return split.dual ? 3 : 2;
 }
 
-Result<void> ControlCurves::check() const {
+Result<void> ControlCurves::check([[maybe_unused]] const Budget& budget) const {
   if (auto checked = check_basis(*this); !checked) return checked;
   if (auto checked = check_points(*this); !checked) return checked;
   if (!is_subdivided(basis)) return check_piecewise(*this);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 
@@ -63,7 +64,7 @@ struct ControlCurves {
   }
   // First fault and its place (JSON names: degree, tension, ratio - only that of the basis in use is looked
   // at -, points, counted in scalars, curveVertexCounts). Needs least_points() per curve.
-  Result<void> check() const;
+  Result<void> check(const Budget& budget = {}) const;
 };
 
 // What one step of a scheme does to the numbering of points.

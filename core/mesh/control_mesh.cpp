@@ -248,7 +248,7 @@ Result<void> check_render_meshes(const ControlMesh& mesh) {
 
 }  // namespace
 
-Result<void> ControlMesh::check() const {
+Result<void> ControlMesh::check([[maybe_unused]] const Budget& budget) const {
   for (auto part : {check_points, check_faces, check_creases, check_corners_and_holes, check_primvars,
                     check_render_meshes})
     if (auto fine = part(*this); !fine) return fine;

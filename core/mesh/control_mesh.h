@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 
@@ -85,7 +86,8 @@ struct ControlMesh {
   // Faces other than triangles are faults (call triangulate first), and so are faces that repeat a vertex
   // (call drop_degenerate_faces first). subdivision_scheme is refine()'s to judge: masks live above this
   // folder.
-  Result<void> check() const;
+  // Stops when the budget says so; its error then has no place.
+  Result<void> check(const Budget& budget = {}) const;
 };
 
 }  // namespace subdivd

@@ -120,7 +120,7 @@ void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& drop
 
 }  // namespace
 
-Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh) {
+Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, [[maybe_unused]] const Budget& budget) {
   const bool triangles = mesh.face_vertex_indices.size() == 3 * mesh.face_count() &&
                          std::ranges::all_of(mesh.face_vertex_counts, [](Index count) { return count == 3; });
   if (!triangles) {
@@ -161,7 +161,7 @@ Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh) {
   return kept;
 }
 
-Result<std::vector<Index>> triangulate(ControlMesh& mesh) {
+Result<std::vector<Index>> triangulate(ControlMesh& mesh, [[maybe_unused]] const Budget& budget) {
   if (std::ranges::all_of(mesh.face_vertex_counts, [](Index count) { return count == 3; }))
     return std::vector<Index>{};
   const std::vector<Count> offsets = corner_offsets(mesh);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
@@ -11,15 +12,16 @@ namespace subdivd {
 
 // Both return, for every face of the new mesh, the face of the old one that it came from; empty when nothing
 // was changed. Array lengths and indices are trusted no more than check() trusts them: a fault is returned as
-// check() would report it, and the mesh is then unchanged.
+// check() would report it, and the mesh is then unchanged. Stopped by the budget, they leave the mesh
+// in any state.
 
 // Removes faces that repeat a vertex: they have no inside. Their face-varying indices, uniform values and
 // holes go with them, and so do creases along edges that no other face has. Expects triangles.
-Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh);
+Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget = {});
 
 // Splits every face of k > 3 vertices into the fan (0,1,2), (0,2,3), ... from its first vertex; uniform
 // values, face-varying indices and holes follow. Refuses faces of fewer than 3 vertices. A mesh with render
 // meshes has only triangles and is left alone.
-Result<std::vector<Index>> triangulate(ControlMesh& mesh);
+Result<std::vector<Index>> triangulate(ControlMesh& mesh, const Budget& budget = {});
 
 }  // namespace subdivd

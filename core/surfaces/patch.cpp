@@ -54,14 +54,14 @@ struct Grid {
 
 // One step. Rows first, a new row at a time: no grid is ever half refined.
 template <class Real>
-std::optional<Error> subdivide(const Grid<Real>& from, Grid<Real>& to, Pacer& pacer) {
+std::optional<Error> subdivide(const Grid<Real>& from, Grid<Real>& to, BudgetPoller& poller) {
   to.points.resize(to.row_size() * to.v.n);
   Buffer<Real> row(from.row_size());
   for (Count j = 0; j < to.v.n; ++j) {
     if (auto stop =
-            combine_rows(from.points.data(), from.row_size(), step_taps(from.v, j), row.data(), pacer))
+            combine_rows(from.points.data(), from.row_size(), step_taps(from.v, j), row.data(), poller))
       return stop;
-    if (auto stop = split_row(from.u, row.data(), to.width, &to.points[j * to.row_size()], pacer))
+    if (auto stop = split_row(from.u, row.data(), to.width, &to.points[j * to.row_size()], poller))
       return stop;
   }
   return std::nullopt;
@@ -77,12 +77,12 @@ struct FrameRow {
 
 template <class Real>
 Result<void> append_normals(const FrameRow<Real>& row, Count count, Index level, Real* normals,
-                            Pacer& pacer) {
+                            BudgetPoller& poller) {
   // Tangents that nobody sees must exist as well: without them there would be a normal of no meaning.
   for (const Real* tangents : {row.du, row.dv})
-    if (auto finite = check_finite(std::span(tangents, 3 * count), pacer); !finite) return finite;
+    if (auto finite = check_finite(std::span(tangents, 3 * count), poller); !finite) return finite;
   for (Count i = 0; i < count; ++i) {
-    if (auto stop = pacer.spend(3)) return *stop;
+    if (auto stop = poller.spend(3)) return *stop;
     const auto normal = normal_of<Real>(row.point + 3 * i, row.du + 3 * i, row.dv + 3 * i, level);
     std::copy_n(normal.data(), 3, normals + 3 * i);
   }
@@ -92,7 +92,7 @@ Result<void> append_normals(const FrameRow<Real>& row, Count count, Index level,
 // Limit points, tangents and normals, what is asked for of them.
 template <class Real>
 Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, RefinedPatch<Real>& out,
-                           Pacer& pacer) {
+                           BudgetPoller& poller) {
   const Index width = grid.width;
   const Count points = grid.u.n * grid.v.n, size = grid.row_size();
   const Real scale = static_cast<Real>(Count{1} << options.level);
@@ -107,10 +107,10 @@ Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, 
                                 options.tangents ? &out.du[j * size] : du.data(),
                                 options.tangents ? &out.dv[j * size] : dv.data()};
     const auto across = [&](const Taps& taps, Buffer<Real>& to) {
-      return combine_rows(grid.points.data(), size, taps, to.data(), pacer);
+      return combine_rows(grid.points.data(), size, taps, to.data(), poller);
     };
     const auto along = [&](const Buffer<Real>& from, RowRule rule, Real factor, Real* to) {
-      return combine_along(grid.u, from.data(), width, rule, factor, to, pacer);
+      return combine_along(grid.u, from.data(), width, rule, factor, to, poller);
     };
     if (auto stop = across(limit_taps(grid.v, j), limits)) return *stop;
     if (auto stop = along(limits, limit_taps, Real(1), row.point)) return *stop;
@@ -120,7 +120,7 @@ Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, 
     if (auto stop = along(slopes, limit_taps, scale, row.dv)) return *stop;
     if (!options.normals) continue;
     Real* normals = &out.normals[j * grid.u.n * 3];
-    if (auto done = append_normals(row, grid.u.n, options.level, normals, pacer); !done) return done;
+    if (auto done = append_normals(row, grid.u.n, options.level, normals, poller); !done) return done;
   }
   return {};
 }
@@ -146,13 +146,13 @@ Index* add_quad(Index a, Index b, Index c, Index d, Index* to) {
 }
 
 template <PatchFaces kFaces>
-std::optional<Error> append_quads(Direction u, Direction v, Index* to, Pacer& pacer) {
+std::optional<Error> append_quads(Direction u, Direction v, Index* to, BudgetPoller& poller) {
   const Count last = u.n - 1;
   for (Count j = 0; j < v.segments(); ++j) {
     const Index row = static_cast<Index>(j * u.n), next = static_cast<Index>(v.after(j) * u.n);
-    for (Count begin = 0; begin < last; begin += Pacer::kInterval) {
-      const auto end = static_cast<Index>(std::min(begin + Pacer::kInterval, last));
-      if (auto stop = pacer.spend(4 * (end - begin))) return stop;
+    for (Count begin = 0; begin < last; begin += BudgetPoller::kInterval) {
+      const auto end = static_cast<Index>(std::min(begin + BudgetPoller::kInterval, last));
+      if (auto stop = poller.spend(4 * (end - begin))) return stop;
       for (auto i = static_cast<Index>(begin); i < end; ++i)
         to = add_quad<kFaces>(row + i, row + i + 1, next + i + 1, next + i, to);
     }
@@ -163,20 +163,20 @@ std::optional<Error> append_quads(Direction u, Direction v, Index* to, Pacer& pa
 }
 
 std::optional<Error> append_faces(Direction u, Direction v, PatchFaces faces, Buffer<Index>& out,
-                                  Pacer& pacer) {
+                                  BudgetPoller& poller) {
   out.resize(corner_count(u, v, faces));
-  if (faces == PatchFaces::quads) return append_quads<PatchFaces::quads>(u, v, out.data(), pacer);
-  return append_quads<PatchFaces::triangles>(u, v, out.data(), pacer);
+  if (faces == PatchFaces::quads) return append_quads<PatchFaces::quads>(u, v, out.data(), poller);
+  return append_quads<PatchFaces::triangles>(u, v, out.data(), poller);
 }
 
 // --- Everything together ----------------------------------------------------------------------------------
 
 template <class Real>
-Result<Grid<Real>> grid_of(const ControlPatch& patch, Pacer& pacer) {
+Result<Grid<Real>> grid_of(const ControlPatch& patch, BudgetPoller& poller) {
   Grid<Real> grid{u_of(patch), v_of(patch), patch.width, Buffer<Real>(patch.points.size())};
-  for (Count begin = 0; begin < patch.points.size(); begin += Pacer::kInterval) {
-    const Count count = std::min<Count>(Pacer::kInterval, patch.points.size() - begin);
-    if (auto stop = pacer.spend(count)) return *stop;
+  for (Count begin = 0; begin < patch.points.size(); begin += BudgetPoller::kInterval) {
+    const Count count = std::min<Count>(BudgetPoller::kInterval, patch.points.size() - begin);
+    if (auto stop = poller.spend(count)) return *stop;
     const std::span<const double> from = std::span(patch.points).subspan(begin, count);
     for (const double x : from)
       if (!(std::abs(x) <= static_cast<double>(std::numeric_limits<Real>::max()))) return does_not_fit();
@@ -207,7 +207,7 @@ Result<Count> total_points(const ControlPatch& patch, Index level) {
 
 }  // namespace
 
-Result<void> ControlPatch::check() const {
+Result<void> ControlPatch::check([[maybe_unused]] const Budget& budget) const {
   if (width < 1 || width > kMaxPatchWidth)
     return Error{ErrorCode::out_of_range,
                  "points have " + std::to_string(width) + " components each; 1 to " +
@@ -292,13 +292,13 @@ Result<RefinedPatch<Real>> refine(const ControlPatch& patch, const PatchOptions&
   const Result<Count> bytes = predict_bytes<Real>(patch, options);
   if (!bytes) return bytes.error();
   if (auto allowed = budget.check_bytes(*bytes); !allowed) return allowed.error();
-  Pacer pacer(budget);
-  Result<Grid<Real>> start = grid_of<Real>(patch, pacer);
+  BudgetPoller poller(budget);
+  Result<Grid<Real>> start = grid_of<Real>(patch, poller);
   if (!start) return start.error();
   Grid<Real> grid = std::move(*start);
   for (Index l = 0; l < options.level; ++l) {
     Grid<Real> next{refined(grid.u, 1), refined(grid.v, 1), grid.width, {}};
-    if (auto stop = subdivide(grid, next, pacer)) return *stop;
+    if (auto stop = subdivide(grid, next, poller)) return *stop;
     grid = std::move(next);
   }
 
@@ -312,12 +312,12 @@ Result<RefinedPatch<Real>> refine(const ControlPatch& patch, const PatchOptions&
   out.v_wrap = patch.v_wrap;
   out.corners_per_face = corners_of(options.faces);
   if (options.limit || options.tangents || options.normals)
-    if (auto done = append_frames(grid, options, out, pacer); !done) return std::move(done).error();
+    if (auto done = append_frames(grid, options, out, poller); !done) return std::move(done).error();
   if (options.faces != PatchFaces::none)
-    if (auto stop = append_faces(grid.u, grid.v, options.faces, out.faces, pacer)) return *stop;
+    if (auto stop = append_faces(grid.u, grid.v, options.faces, out.faces, poller)) return *stop;
   out.points = std::move(grid.points);
   for (const Buffer<Real>* values : {&out.points, &out.limit_points, &out.du, &out.dv, &out.normals})
-    if (auto finite = check_finite(std::span<const Real>(*values), pacer); !finite) return finite.error();
+    if (auto finite = check_finite(std::span<const Real>(*values), poller); !finite) return finite.error();
   return out;
 }
 

@@ -53,7 +53,7 @@ struct ControlPatch {
 
   // First fault and its place (uDegree, vDegree, width, uVertexCount, vVertexCount,
   // points).
-  Result<void> check() const;
+  Result<void> check(const Budget& budget = {}) const;
 };
 
 enum class PatchFaces { none, triangles, quads };

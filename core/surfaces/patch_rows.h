@@ -11,43 +11,25 @@
 
 namespace subdivd {
 
-// Counts work and polls the budget now and then.
-class Pacer {
- public:
-  static constexpr Count kInterval = 4096;  // scalars between two looks at the budget
-
-  explicit Pacer(const Budget& budget) : budget_(budget) {}
-
-  std::optional<Error> spend(Count scalars) {
-    spent_ += scalars;
-    if (spent_ < kInterval) return std::nullopt;
-    spent_ = 0;
-    return budget_.poll();
-  }
-
- private:
-  const Budget& budget_;
-  Count spent_ = kInterval;  // the first call polls: a dead caller costs nothing
-};
-
 // Three rows of a grid, `row_size` scalars each, into one: `taps` along v. `out` overlaps none of them.
 template <class Real>
 std::optional<Error> combine_rows(const Real* grid, Count row_size, const Taps& taps, Real* out,
-                                  Pacer& pacer);
+                                  BudgetPoller& poller);
 
 // The row of the next level: step_taps() for every point of it. `row`: d.n points of `width` scalars.
 template <class Real>
-std::optional<Error> split_row(const Direction& d, const Real* row, Index width, Real* out, Pacer& pacer);
+std::optional<Error> split_row(const Direction& d, const Real* row, Index width, Real* out,
+                               BudgetPoller& poller);
 
 // As many points as the row has, each by the taps that `rule` says for it, times `scale`. Rules have the
 // same weights two points away from the ends, on the points before, behind and at the place.
 using RowRule = Taps (*)(const Direction& d, Count i);
 template <class Real>
 std::optional<Error> combine_along(const Direction& d, const Real* row, Index width, RowRule rule, Real scale,
-                                   Real* out, Pacer& pacer);
+                                   Real* out, BudgetPoller& poller);
 
 // out_of_range at the first number that is not finite.
 template <class Real>
-Result<void> check_finite(std::span<const Real> values, Pacer& pacer);
+Result<void> check_finite(std::span<const Real> values, BudgetPoller& poller);
 
 }  // namespace subdivd

@@ -164,7 +164,7 @@ SplitVertices split_vertices(const std::vector<Index>& corners,
   return {static_cast<Index>(weld.first.size()), std::move(weld.id), std::move(weld.first)};
 }
 
-void add_render_meshes(RefineRequest& request) {
+Result<void> add_render_meshes(RefineRequest& request, [[maybe_unused]] const Budget& budget) {
   for (ControlMesh& mesh : request.meshes) {
     if (!mesh.render_meshes.empty()) continue;
     std::vector<const std::vector<Index>*> indices;
@@ -176,6 +176,7 @@ void add_render_meshes(RefineRequest& request) {
     mesh.render_meshes.push_back(
         {0, static_cast<Index>(mesh.face_count()), split.vertex_count, std::move(split.indices)});
   }
+  return {};
 }
 
 }  // namespace subdivd::proto::gltf

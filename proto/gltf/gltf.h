@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "proto/wire.h"
 
@@ -17,13 +18,13 @@ namespace subdivd::proto::gltf {
 
 // `options` are already known (weld is needed while reading); the request's options are set to them, with
 // normals when any primitive had them. Error::where is a path into the glTF JSON.
-Result<RefineRequest> read(std::string_view body, Format format, const Options& options,
-                           const Limits& limits);
+Result<RefineRequest> read(std::string_view body, Format format, const Options& options, const Limits& limits,
+                           const Budget& budget = {});
 
 // For a checked JSON request that will be answered in glTF, before it is predicted and refined: gives meshes
 // with face-varying primvars the render mesh that says where their vertices split. Without one write() leaves
 // those primvars out.
-void add_render_meshes(RefineRequest& request);
+Result<void> add_render_meshes(RefineRequest& request, const Budget& budget = {});
 
 // Exact size of the BIN chunk (no holes, boundary not "none"; otherwise an upper bound) plus an upper bound
 // of all other bytes of the answer.
@@ -31,6 +32,6 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
 
 // Format::glb or Format::gltf (embedded base64). `envelope` is a JSON object for asset.extras.subdivd.
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,
-                      std::string_view envelope);
+                      std::string_view envelope, const Budget& budget = {});
 
 }  // namespace subdivd::proto::gltf

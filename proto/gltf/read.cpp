@@ -63,8 +63,8 @@ Result<void> read_meshes(const Asset& asset, const Options& options, const Limit
 
 }  // namespace
 
-Result<RefineRequest> read(std::string_view body, Format format, const Options& options,
-                           const Limits& limits) {
+Result<RefineRequest> read(std::string_view body, Format format, const Options& options, const Limits& limits,
+                           [[maybe_unused]] const Budget& budget) {
   Container container;
   if (format == Format::glb) {
     auto parsed = parse_glb(body);

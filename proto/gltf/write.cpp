@@ -171,7 +171,7 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
 }
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,
-                      std::string_view envelope) {
+                      std::string_view envelope, [[maybe_unused]] const Budget& budget) {
   std::vector<std::string> sentences;
   Source made;
   if (!request.source) made = make_source(request, sentences);

@@ -6,17 +6,18 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto::json {
 
 // Reads a JSON body: meshes (not yet checked by ControlMesh::check), curves, options.
-Result<RefineRequest> read(std::string_view body, const Limits& limits);
+Result<RefineRequest> read(std::string_view body, const Limits& limits, const Budget& budget);
 
 // The same for a body that is one curve or surface, or lists of them: what has a "type" or "basis" at its
 // top.
-Result<RefineRequest> read_curve(std::string_view body, const Limits& limits);
+Result<RefineRequest> read_curve(std::string_view body, const Limits& limits, const Budget& budget);
 
 // Whether the body is a JSON object with this member at its top.
 bool has_member(std::string_view body, std::string_view name);
@@ -25,9 +26,10 @@ bool has_member(std::string_view body, std::string_view name);
 Count predicted_envelope_bytes(const RefineRequest& request);
 Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes);
 
-Result<Payload> write(const RefineRequest& request, AnyAnswer answer);
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, const Budget& budget);
 // With other members behind the geometry than the envelope: the text of a JSON object.
-Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members);
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members,
+                      const Budget& budget);
 
 // {"options": {…}, "statistics": {…}, "warnings": […], "verification": {…}} as one JSON object: the members
 // that every answer carries, whatever its format. glTF puts it into asset.extras.subdivd. Members that do not

@@ -235,7 +235,8 @@ Result<void> read_document(std::string_view body,
   return *cursor.error();
 }
 
-Result<RefineRequest> read(std::string_view body, const Limits& limits) {
+Result<RefineRequest> read(std::string_view body, const Limits& limits,
+                           [[maybe_unused]] const Budget& budget) {
   RefineRequest request;
   request.input = Format::json;
   const auto done = read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {

@@ -294,7 +294,8 @@ Result<void> read_task(std::string_view body, const Limits& limits, CurveRequest
 
 }  // namespace
 
-Result<RefineRequest> read_curve(std::string_view body, const Limits& limits) {
+Result<RefineRequest> read_curve(std::string_view body, const Limits& limits,
+                                 [[maybe_unused]] const Budget& budget) {
   CurveRequest request;
   if (auto done = read_task(body, limits, request); !done) return std::move(done).error();
   return std::move(request.curves);
@@ -325,7 +326,7 @@ Result<void> check_surfaces(const CurveRequest& request) {
 }  // namespace
 
 Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
-                                   const Limits& limits) {
+                                   const Limits& limits, const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
     return Error{ErrorCode::too_large,
                  std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
@@ -341,7 +342,7 @@ Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, co
         ErrorCode::unknown_field, "this request takes no query parameters", {"?" + query[0].first}, 0, 0};
   if (auto set = set_parameters(request.curves.options, query); !set) return set.error();
   if (auto fine = check_options(request.curves.options, limits, query); !fine) return fine.error();
-  if (auto fine = prepare(request.curves); !fine) return fine.error();
+  if (auto fine = prepare(request.curves, budget); !fine) return fine.error();
   if (auto fine = check_surfaces(request); !fine) return fine.error();
   return request;
 }

@@ -204,12 +204,13 @@ class AnswerWriter {
 
 }  // namespace
 
-Result<Payload> write(const RefineRequest& request, AnyAnswer answer) {
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, const Budget& budget) {
   const std::string members = envelope(request, answer);
-  return write(request, std::move(answer), members);
+  return write(request, std::move(answer), members, budget);
 }
 
-Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members) {
+Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members,
+                      [[maybe_unused]] const Budget& budget) {
   return std::visit(
       [&]<class Real>(RefineAnswer<Real>& typed) {
         return AnswerWriter<Real>(request, std::move(typed)).write(members);

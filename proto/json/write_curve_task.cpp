@@ -61,7 +61,8 @@ Json measure_of(const CurveMeasure& measure, Count width) {
 
 }  // namespace
 
-Payload encode_samples(const CurveRequest& request, const CurveSamples& samples) {
+Result<Payload> encode_samples(const CurveRequest& request, const CurveSamples& samples,
+                               [[maybe_unused]] const Budget& budget) {
   Json json = {{"curves", samples.curves}, {"ts", numbers(samples.ts)}, {"points", Json::array()}};
   for (Index order = 1; order <= samples.order; ++order) json["derivatives"].push_back(Json::array());
   for (std::size_t k = 0; k < samples.ts.size(); ++k) {
@@ -85,7 +86,8 @@ Payload encode_samples(const CurveRequest& request, const CurveSamples& samples)
   return payload_of(request, {{"samples", std::move(json)}});
 }
 
-Payload encode_samples(const CurveRequest& request, const SurfaceSamples& samples) {
+Result<Payload> encode_samples(const CurveRequest& request, const SurfaceSamples& samples,
+                               [[maybe_unused]] const Budget& budget) {
   const CurveTask& task = request.task;
   Json json = {{"surfaces", task.sample_surfaces},
                {"us", numbers(task.sample_us)},
@@ -104,7 +106,8 @@ Payload encode_samples(const CurveRequest& request, const SurfaceSamples& sample
   return payload_of(request, {{"samples", std::move(json)}});
 }
 
-Payload encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures) {
+Result<Payload> encode_measures(const CurveRequest& request, const std::vector<CurveMeasure>& measures,
+                                [[maybe_unused]] const Budget& budget) {
   Json all = Json::array();
   std::size_t at = 0;
   for (const ControlCurves& curves : request.curves.curves)
@@ -112,12 +115,12 @@ Payload encode_measures(const CurveRequest& request, const std::vector<CurveMeas
   return payload_of(request, {{"measures", std::move(all)}});
 }
 
-Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited) {
+Result<Payload> encode_edited(const CurveRequest& request, EditedCurves edited, const Budget& budget) {
   Json members = Json::object();
   if (request.task.kind == CurveTaskKind::remove_knot) members["removed"] = edited.removed;
   if (request.task.kind != CurveTaskKind::insert_knot) members["errorBounds"] = numbers(edited.error_bounds);
   if (!request.curves.warnings.empty()) members["warnings"] = request.curves.warnings;
-  return json::write(request.curves, AnyAnswer(std::move(edited.answer)), dumped(members));
+  return json::write(request.curves, AnyAnswer(std::move(edited.answer)), dumped(members), budget);
 }
 
 }  // namespace subdivd::proto

@@ -85,21 +85,21 @@ Result<proto::Payload> answer_curve_task(const proto::CurveRequest& request, con
       if (request.task.on_surfaces) {
         auto samples = compute_surface_samples(request, budget);
         if (!samples) return std::move(samples).error();
-        return proto::encode_samples(request, *samples);
+        return proto::encode_samples(request, *samples, budget);
       }
       auto samples = compute_samples(request, budget);
       if (!samples) return std::move(samples).error();
-      return proto::encode_samples(request, *samples);
+      return proto::encode_samples(request, *samples, budget);
     }
     case proto::CurveTaskKind::measure: {
       auto measures = compute_measures(request, budget);
       if (!measures) return std::move(measures).error();
-      return proto::encode_measures(request, *measures);
+      return proto::encode_measures(request, *measures, budget);
     }
     default: {
       auto edited = compute_edited(request, budget);
       if (!edited) return std::move(edited).error();
-      return proto::encode_edited(request, *std::move(edited));
+      return proto::encode_edited(request, *std::move(edited), budget);
     }
   }
 }
@@ -131,13 +131,13 @@ GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying
   auto admitted = admission_.enter(budget.deadline, request.cancelled);
   if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
   const Clock::time_point start = Clock::now();
-  auto decoded = decode(request, limits_);
+  auto decoded = decode(request, limits_, budget);
   std::string().swap(request.body);
   if (!decoded) return problem_response(decoded.error());
   if (verifying ? !accepts_json(request) : !choose_format(request, *decoded))
     return not_acceptable(verifying ? "application/json"
                                     : "application/json, model/gltf-binary or model/gltf+json");
-  const auto predicted = proto::predict_refine(*decoded, limits_);
+  const auto predicted = proto::predict_refine(*decoded, limits_, budget);
   if (!predicted) return problem_response(predicted.error());
   const bool with_oracle = verifying || decoded->options.verify;
   auto lease = std::make_shared<Quota::Lease>(memory_);
@@ -153,13 +153,16 @@ GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying
 
 namespace {
 
-Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits) {
+Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits,
+                                        const Budget& budget) {
   return proto::decode_refine(request.body, body_kind(request).value_or(proto::BodyKind::unspecified),
-                              request.query, limits);
+                              request.query, limits, budget);
 }
 
-Result<proto::RefineRequest> decode_curves(const Request& request, const proto::Limits& limits) {
-  auto decoded = proto::decode_curves(request.body, proto::CurveTaskKind::refine, request.query, limits);
+Result<proto::RefineRequest> decode_curves(const Request& request, const proto::Limits& limits,
+                                           const Budget& budget) {
+  auto decoded =
+      proto::decode_curves(request.body, proto::CurveTaskKind::refine, request.query, limits, budget);
   if (!decoded) return std::move(decoded).error();
   return std::move(decoded->curves);
 }
@@ -173,7 +176,7 @@ Response GeometryHandlers::refined(Begun begun) {
   Job& job = std::get<Job>(begun);
   auto answer = compute_refinement(job.request, job.budget, job.timings);
   if (!answer) return problem_response(answer.error());
-  auto payload = proto::encode_refine(job.request, std::move(answer).value());
+  auto payload = proto::encode_refine(job.request, std::move(answer).value(), job.budget);
   if (!payload) return problem_response(payload.error());
   Response response = payload_response(std::move(payload).value());
   // While a slow client reads, the answer's own bytes stay reserved; the work's are free for others.
@@ -201,7 +204,7 @@ Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
   auto admitted = admission_.enter(budget.deadline, request.cancelled);
   if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
   if (!accepts_json(request)) return not_acceptable("application/json");
-  auto decoded = proto::decode_curves(request.body, kind, request.query, limits_);
+  auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
   std::string().swap(request.body);
   if (!decoded) return problem_response(decoded.error());
   const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes);

@@ -30,7 +30,8 @@ class GeometryHandlers {
  private:
   struct Job;
   using Begun = std::variant<Job, Response>;  // a Response: the request came no further
-  using Decode = Result<proto::RefineRequest> (*)(const Request& request, const proto::Limits& limits);
+  using Decode = Result<proto::RefineRequest> (*)(const Request& request, const proto::Limits& limits,
+                                                  const Budget& budget);
 
   Begun begin(Request& request, bool verifying, Decode decode);
   Response refined(Begun begun);

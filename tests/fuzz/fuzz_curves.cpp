@@ -52,15 +52,15 @@ void answer(const proto::CurveRequest& request, const Budget& budget) {
     case Kind::evaluate:
       if (request.task.on_surfaces) {
         if (const auto samples = server::compute_surface_samples(request, budget); found(samples))
-          require_answer(proto::encode_samples(request, *samples));
+          require_answer(proto::*encode_samples(request, *samples));
         return;
       }
       if (const auto samples = server::compute_samples(request, budget); found(samples))
-        require_answer(proto::encode_samples(request, *samples));
+        require_answer(proto::*encode_samples(request, *samples));
       return;
     case Kind::measure:
       if (const auto measures = server::compute_measures(request, budget); found(measures))
-        require_answer(proto::encode_measures(request, *measures));
+        require_answer(proto::*encode_measures(request, *measures));
       return;
     default:
       if (auto edited = server::compute_edited(request, budget); found(edited))

@@ -50,15 +50,15 @@ json ask(Kind kind, const json& body, const Budget& budget = {}) {
   if (auto bytes = predict_curve_task(*request, Count{1} << 30); !bytes) return refusal(bytes.error());
   if (kind == Kind::evaluate && request->task.on_surfaces) {
     auto samples = compute_surface_samples(*request, budget);
-    return samples ? json::parse(text_of(encode_samples(*request, *samples))) : refusal(samples.error());
+    return samples ? json::parse(text_of(*encode_samples(*request, *samples))) : refusal(samples.error());
   }
   if (kind == Kind::evaluate) {
     auto samples = compute_samples(*request, budget);
-    return samples ? json::parse(text_of(encode_samples(*request, *samples))) : refusal(samples.error());
+    return samples ? json::parse(text_of(*encode_samples(*request, *samples))) : refusal(samples.error());
   }
   if (kind == Kind::measure) {
     auto measures = compute_measures(*request, budget);
-    return measures ? json::parse(text_of(encode_measures(*request, *measures))) : refusal(measures.error());
+    return measures ? json::parse(text_of(*encode_measures(*request, *measures))) : refusal(measures.error());
   }
   auto edited = compute_edited(*request, budget);
   if (!edited) return refusal(edited.error());
