@@ -28,7 +28,7 @@ std::vector<Real> tapped(const std::vector<Real>& row, Index width, Count count,
 template <class Real>
 void expect_rows_by_taps() {
   const Budget budget;
-  Pacer pacer(budget);
+  BudgetPoller poller(budget);
   for (const CurveWrap wrap : {CurveWrap::nonperiodic, CurveWrap::periodic, CurveWrap::pinned})
     for (const Index degree : {2u, 3u})
       for (const Index width : {1u, 2u, 3u, 4u, 5u, 16u})
@@ -42,12 +42,12 @@ void expect_rows_by_taps() {
           for (Real& x : row) x = static_cast<Real>(random.centred());
           const Count children = refined_grid_count(wrap, degree, n, 1);
           std::vector<Real> split(children * width);
-          ASSERT_FALSE(split_row(d, row.data(), width, split.data(), pacer));
+          ASSERT_FALSE(split_row(d, row.data(), width, split.data(), poller));
           ASSERT_EQ(split, tapped(
                                row, width, children, [&](Count i) { return step_taps(d, i); }, Real(1)));
           for (const RowRule rule : {limit_taps, tangent_taps}) {
             std::vector<Real> along(row.size());
-            ASSERT_FALSE(combine_along(d, row.data(), width, rule, Real(8), along.data(), pacer));
+            ASSERT_FALSE(combine_along(d, row.data(), width, rule, Real(8), along.data(), poller));
             ASSERT_EQ(along, tapped(
                                  row, width, n, [&](Count i) { return rule(d, i); }, Real(8)));
           }
@@ -67,10 +67,10 @@ TEST(PatchRows, stop_when_nobody_waits_any_more) {
   const std::vector<double> row(9001);
   std::vector<double> out(2 * row.size());
   for (int loop = 0; loop < 3; ++loop) {
-    Pacer pacer(budget);
-    const auto stopped = loop == 0   ? split_row(d, row.data(), 1, out.data(), pacer)
-                         : loop == 1 ? combine_along(d, row.data(), 1, limit_taps, 1.0, out.data(), pacer)
-                                     : combine_rows(row.data(), 3000, limit_taps(d, 1), out.data(), pacer);
+    BudgetPoller poller(budget);
+    const auto stopped = loop == 0   ? split_row(d, row.data(), 1, out.data(), poller)
+                         : loop == 1 ? combine_along(d, row.data(), 1, limit_taps, 1.0, out.data(), poller)
+                                     : combine_rows(row.data(), 3000, limit_taps(d, 1), out.data(), poller);
     ASSERT_TRUE(stopped);
     EXPECT_EQ(stopped->code, ErrorCode::cancelled);
   }
