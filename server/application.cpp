@@ -17,9 +17,14 @@ namespace {
 
 constexpr std::string_view kSpectrumPath = "/v1/schemes/{name}/{valence}";
 
-std::size_t concurrency(const Config& config) {
-  return config.max_concurrent > 0 ? config.max_concurrent
-                                   : std::max(1u, std::thread::hardware_concurrency());
+Grants::Shares shares_of(const Config& config, Count bytes) {
+  Grants::Shares shares;
+  shares.places =
+      config.max_concurrent > 0 ? config.max_concurrent : std::max(1u, std::thread::hardware_concurrency());
+  shares.small_places = std::max<std::size_t>(shares.places, 2);
+  shares.max_waiting = config.max_waiting;
+  shares.bytes = bytes;
+  return shares;
 }
 
 Response text_response(std::string content_type, std::string text) {
@@ -39,10 +44,10 @@ Response page_response() {
 
 }  // namespace
 
-Application::Application(const Config& config, Quota& memory)
+Application::Application(const Config& config, Count bytes)
     : config_(config),
-      admission_(concurrency(config), config.max_waiting),
-      geometry_(config, admission_, memory),
+      grants_(shares_of(config, bytes)),
+      geometry_(config, grants_),
       cors_(config.cors_origins),
       router_(routes()) {}
 

@@ -4,20 +4,19 @@
 #include <atomic>
 #include <optional>
 
-#include "server/admission.h"
 #include "server/config.h"
 #include "server/cors.h"
+#include "server/grants.h"
 #include "server/handlers/geometry.h"
 #include "server/router.h"
-#include "server/transport/quota.h"
 #include "server/transport/service.h"
 
 namespace subdivd::server {
 
 class Application final : public Service {
  public:
-  // Both must outlive the application.
-  Application(const Config& config, Quota& memory);
+  // `bytes` of memory are shared by all requests that are computed. `config` must outlive the application.
+  Application(const Config& config, Count bytes);
 
   // Runs the self-test if the configuration wants it; /readyz tells the outcome.
   bool prepare();
@@ -30,6 +29,7 @@ class Application final : public Service {
   void record(const Exchange& exchange) override;
 
   const Router& router() const { return router_; }
+  const Grants& grants() const { return grants_; }
 
  private:
   std::vector<Route> routes();
@@ -39,7 +39,7 @@ class Application final : public Service {
   Response finished(const Request& request, Response response) const;
 
   const Config& config_;
-  Admission admission_;
+  Grants grants_;
   GeometryHandlers geometry_;
   const Cors cors_;
   const Router router_;

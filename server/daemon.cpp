@@ -3,7 +3,9 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 
@@ -14,6 +16,8 @@
 
 namespace subdivd::server {
 namespace {
+
+constexpr std::chrono::milliseconds kLogPatience{500};
 
 std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<long long>(seconds * 1000));
@@ -30,17 +34,59 @@ TransportOptions transport_options(const Config& config) {
   return options;
 }
 
-sigset_t ending_signals() {
+// What --max-memory-bytes is shared out to. Fixed shares: bodies that wait to be computed can never take what
+// computing needs, nor the other way round.
+struct MemoryShares {
+  Count bodies = 0, work = 0;
+};
+
+MemoryShares share_out(Count bytes) {
+  // The program, its threads and their buffers, measured under load; of very little memory, half is for
+  // requests.
+  constexpr Count kOwn = Count{24} << 20;
+  const Count shared = std::max(bytes / 2, bytes - std::min(bytes, kOwn));
+  return {shared / 4, shared - shared / 4};
+}
+
+// Signals that this program answers; all others keep their meaning.
+sigset_t handled_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2}) sigaddset(&signals, signal);
   return signals;
 }
 
 std::string url_of(const Config& config, int port) {
   const bool v6 = config.host.find(':') != std::string::npos;
   return "http://" + (v6 ? "[" + config.host + "]" : config.host) + ":" + std::to_string(port);
+}
+
+// Everything that is taken and given back, as SIGUSR1 puts it into the log: idle, all of it is free.
+std::string state_line(const Application& application, const Quota& bodies) {
+  const Grants::State work = application.grants().state();
+  std::string line = "state";
+  const auto add = [&](const char* name, std::uint64_t value) {
+    line += std::string(" ") + name + "=" + std::to_string(value);
+  };
+  add("memory_total", work.bytes + bodies.total());
+  add("memory_free", work.free_bytes + bodies.free());
+  add("places_total", work.places);
+  add("places_free", work.free_places);
+  add("waiting", work.waiting);
+  add("log_dropped", dropped_log_lines());
+  return line;
+}
+
+// Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
+// terminal may end the daemon.
+void wait_for_the_end(const sigset_t& signals, const Application& application, const Quota& bodies) {
+  for (;;) {
+    int received = 0;
+    if (sigwait(&signals, &received) != 0) continue;
+    if (received == SIGTERM || received == SIGINT) return;
+    if (received == SIGUSR1) log_info(state_line(application, bodies));
+    if (received == SIGHUP) log_info("SIGHUP: settings are read at start only");
+  }
 }
 
 void drain(const Config& config, Application& application, Transport& transport) {
@@ -56,23 +102,27 @@ void drain(const Config& config, Application& application, Transport& transport)
 }  // namespace
 
 int run(const Config& config) {
-  // Threads inherit the mask, so the signals wait for sigwait below and interrupt nothing.
-  const sigset_t signals = ending_signals();
+  // Threads inherit the mask, so the signals wait for sigwait and interrupt nothing.
+  const sigset_t signals = handled_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   signal(SIGPIPE, SIG_IGN);  // a closed log must not end the process
   start_log(config.log_level);
-  Quota memory(config.max_memory_bytes);
-  Application application(config, memory);
+  const MemoryShares shares = share_out(config.max_memory_bytes);
+  Quota bodies(shares.bodies);
+  Application application(config, shares.work);
   if (!application.prepare()) log_error("the self-test against OpenSubdiv failed: /readyz says no");
-  Transport transport(transport_options(config), application, memory);
+  TransportOptions options = transport_options(config);
+  options.max_body_bytes = std::min(options.max_body_bytes, bodies.total());
+  Transport transport(options, application, bodies);
   if (auto started = transport.start(); !started) {
     std::cerr << "subdivd: " << started.error().message << std::endl;
     return 1;
   }
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
-  int received = 0;
-  sigwait(&signals, &received);
+  wait_for_the_end(signals, application, bodies);
   drain(config, application, transport);
+  // A reader of the log that has stalled keeps the writing thread for ever: leave without it.
+  if (!finish_log(kLogPatience)) std::_Exit(0);
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include "server/handlers/compute.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/curves/subdivision.h"
@@ -13,16 +12,6 @@
 
 namespace subdivd::server {
 namespace {
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 template <class Real>
 Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request, const Budget& budget) {
@@ -76,18 +65,15 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
 
 template <class Real>
 Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Budget& budget,
-                                   const proto::Timings& timings) {
-  const Stopwatch refining;
+                                   Phases& phases) {
   auto answer = refine_all<Real>(request, budget);
   if (!answer) return std::move(answer).error();
-  answer->timings = timings;
-  answer->timings.refine = refining.milliseconds();
+  phases.end("refine");
   if (request.options.verify) {
-    const Stopwatch verifying;
     auto report = verify_all<Real>(request, budget);
     if (!report) return std::move(report).error();
     answer->verification = std::move(report).value();
-    answer->timings.verify = verifying.milliseconds();
+    phases.end("verify");
   }
   return proto::AnyAnswer(std::move(answer).value());
 }
@@ -95,10 +81,10 @@ Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Bu
 }  // namespace
 
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
-                                            const proto::Timings& timings) {
+                                            Phases& phases) {
   return proto::answer_precision(request) == proto::Precision::single_precision
-             ? answer_in<float>(request, budget, timings)
-             : answer_in<double>(request, budget, timings);
+             ? answer_in<float>(request, budget, phases)
+             : answer_in<double>(request, budget, phases);
 }
 
 Count oracle_bytes(const proto::RefineRequest& request) {

@@ -5,13 +5,14 @@
 #include "core/base/result.h"
 #include "core/oracle/report.h"
 #include "proto/wire.h"
+#include "server/handlers/phases.h"
 
 namespace subdivd::server {
 
 // Refines every mesh, curve and surface, in the precision of the answer; with the report when the options ask
-// for it. `timings` holds what is known so far; the answer's timings continue it.
+// for it. Ends the phases "refine" and "verify".
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
-                                            const proto::Timings& timings);
+                                            Phases& phases);
 
 // Bytes that OpenSubdiv takes for the curves and surfaces of the request, which it refines as meshes: many
 // times their own. `request` is one whose refinement has been predicted.

@@ -10,6 +10,7 @@
 #include "proto/schemes.h"
 #include "server/handlers/compute.h"
 #include "server/handlers/compute_curves.h"
+#include "server/handlers/phases.h"
 #include "server/negotiation.h"
 #include "server/router.h"
 #include "server/status.h"
@@ -24,6 +25,9 @@ using Clock = Budget::Clock;
 constexpr Count kRefineFactor = 2;
 constexpr Count kOracleFactor = 6;
 
+// What a body may have to begin in the lane of small requests.
+constexpr std::size_t kSmallBody = std::size_t{64} << 10;
+
 proto::Limits limits_of(const Config& config) {
   proto::Limits limits;
   limits.max_level = config.max_level;
@@ -32,8 +36,9 @@ proto::Limits limits_of(const Config& config) {
   return limits;
 }
 
-Response payload_response(proto::Payload payload) {
+Response payload_response(proto::Payload payload, const Phases& phases) {
   Response response;
+  response.headers.emplace_back("Server-Timing", phases.header());
   response.content_type = std::move(payload.content_type);
   for (proto::Chunk& chunk : payload.chunks) response.body.push_back({std::move(chunk.owner), chunk.bytes});
   return response;
@@ -43,33 +48,37 @@ Response not_acceptable(const char* kinds) {
   return problem_response(Refusal{406, "not_acceptable", std::string("Accept must admit ") + kinds});
 }
 
-Response not_admitted(Admission::Denied reason) {
+Response denied(Grants::Denied reason, Count wanted, Count most) {
   switch (reason) {
-    case Admission::Denied::full:
+    case Grants::Denied::full:
       return problem_response(Refusal{503, "overloaded", "too many requests are waiting to be computed"});
-    case Admission::Denied::too_late:
+    case Grants::Denied::too_large:
+      return problem_response(Error{ErrorCode::too_large,
+                                    "the request takes more memory than the " + std::to_string(most) +
+                                        " bytes that are set aside: choose a lower level or a smaller input",
+                                    {},
+                                    wanted,
+                                    most});
+    case Grants::Denied::too_late:
       return problem_response(Error{ErrorCode::deadline_exceeded,
                                     "the time allowed for this request ran out while it waited for others",
                                     {},
                                     0,
                                     0});
-    case Admission::Denied::cancelled:
+    case Grants::Denied::cancelled:
       break;
   }
   return problem_response(Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0});
 }
 
-std::optional<Response> reserve(Quota& memory, Quota::Lease& lease, Count bytes) {
-  if (lease.grow_to(bytes)) return std::nullopt;
-  if (bytes <= memory.total())
-    return problem_response(Refusal{503, "overloaded", "other requests take the memory that this one needs"});
-  return problem_response(Error{ErrorCode::too_large,
-                                "the request would take " + std::to_string(bytes) + " bytes of memory; " +
-                                    std::to_string(memory.total()) +
-                                    " are set aside: choose a lower level or a smaller mesh",
-                                {},
-                                bytes,
-                                memory.total()});
+// Sets aside what refining will take, with the answer, and what OpenSubdiv will.
+Result<void> take_predicted(const proto::RefineRequest& request, bool with_oracle,
+                            const proto::Limits& limits, const Budget& budget) {
+  const auto predicted = proto::predict_refine(request, limits, budget);
+  if (!predicted) return predicted.error();
+  return budget.take_memory(predicted->answer_bytes +
+                            predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor) +
+                            (with_oracle ? oracle_bytes(request) : 0));
 }
 
 // ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
@@ -104,55 +113,6 @@ Result<proto::Payload> answer_curve_task(const proto::CurveRequest& request, con
   }
 }
 
-}  // namespace
-
-struct GeometryHandlers::Job {
-  Admission::Ticket ticket;
-  std::shared_ptr<Quota::Lease> memory;
-  Budget budget;
-  proto::RefineRequest request;
-  proto::Timings timings;
-};
-
-GeometryHandlers::GeometryHandlers(const Config& config, Admission& admission, Quota& memory)
-    : config_(config), limits_(limits_of(config)), admission_(admission), memory_(memory) {}
-
-Budget GeometryHandlers::budget_for(const Request& request) const {
-  Budget budget;
-  budget.max_bytes = config_.max_memory_bytes;  // the sum over all meshes is predicted and reserved
-  budget.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(config_.deadline_seconds));
-  budget.cancelled = request.cancelled;
-  return budget;
-}
-
-GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying, Decode decode) {
-  const Budget budget = budget_for(request);
-  auto admitted = admission_.enter(budget.deadline, request.cancelled);
-  if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
-  const Clock::time_point start = Clock::now();
-  auto decoded = decode(request, limits_, budget);
-  std::string().swap(request.body);
-  if (!decoded) return problem_response(decoded.error());
-  if (verifying ? !accepts_json(request) : !choose_format(request, *decoded))
-    return not_acceptable(verifying ? "application/json"
-                                    : "application/json, model/gltf-binary or model/gltf+json");
-  const auto predicted = proto::predict_refine(*decoded, limits_, budget);
-  if (!predicted) return problem_response(predicted.error());
-  const bool with_oracle = verifying || decoded->options.verify;
-  auto lease = std::make_shared<Quota::Lease>(memory_);
-  const Count bytes = predicted->answer_bytes +
-                      predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor) +
-                      (with_oracle ? oracle_bytes(*decoded) : 0);
-  if (auto refused = reserve(memory_, *lease, bytes)) return *std::move(refused);
-  proto::Timings timings;
-  timings.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  return Job{std::get<Admission::Ticket>(std::move(admitted)), std::move(lease), budget,
-             std::move(decoded).value(), timings};
-}
-
-namespace {
-
 Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits,
                                         const Budget& budget) {
   return proto::decode_refine(request.body, body_kind(request).value_or(proto::BodyKind::unspecified),
@@ -169,54 +129,99 @@ Result<proto::RefineRequest> decode_curves(const Request& request, const proto::
 
 }  // namespace
 
-Response GeometryHandlers::refine(Request& request) { return refined(begin(request, false, decode_any)); }
+GeometryHandlers::GeometryHandlers(const Config& config, Grants& grants)
+    : config_(config), limits_(limits_of(config)), grants_(grants) {}
 
-Response GeometryHandlers::refined(Begun begun) {
-  if (auto* refused = std::get_if<Response>(&begun)) return std::move(*refused);
-  Job& job = std::get<Job>(begun);
-  auto answer = compute_refinement(job.request, job.budget, job.timings);
-  if (!answer) return problem_response(answer.error());
-  auto payload = proto::encode_refine(job.request, std::move(answer).value(), job.budget);
-  if (!payload) return problem_response(payload.error());
-  Response response = payload_response(std::move(payload).value());
-  // While a slow client reads, the answer's own bytes stay reserved; the work's are free for others.
-  job.memory->shrink_to(response.size());
-  response.hold = job.memory;
-  return response;
+Budget GeometryHandlers::budget_for(const Request& request) const {
+  Budget budget;
+  budget.max_bytes = config_.max_memory_bytes;  // the sum over all meshes is predicted and taken
+  budget.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                       std::chrono::duration<double>(config_.deadline_seconds));
+  budget.cancelled = request.cancelled;
+  return budget;
+}
+
+Response GeometryHandlers::granted(Request& request, const Attempt& attempt) {
+  Budget budget = budget_for(request);
+  Grants::Wish wish{request.body.size() <= kSmallBody ? Lane::small : Lane::large, 0};
+  for (;;) {
+    auto entered = grants_.enter(wish, budget.deadline, request.cancelled);
+    if (const auto* reason = std::get_if<Grants::Denied>(&entered))
+      return denied(*reason, wish.bytes, grants_.most_bytes());
+    auto grant = std::get<std::shared_ptr<Grants::Grant>>(std::move(entered));
+    budget.memory = grant.get();
+    auto answer = attempt(budget);
+    if (answer) {
+      // While a slow client reads, the answer's own bytes stay set aside; the work's are free for others.
+      grant->keep_only(answer->size());
+      answer->hold = std::move(grant);
+      return *std::move(answer);
+    }
+    // Short of memory: everything made so far is dropped by now, and all of it is waited for.
+    const Grants::Wish more = grant->wish();
+    if (answer.error().code != ErrorCode::overloaded || (more.lane == wish.lane && more.bytes <= wish.bytes))
+      return problem_response(answer.error());
+    wish = more;
+  }
+}
+
+Result<Response> GeometryHandlers::refined(const Request& request, Decode decode,
+                                           const Budget& budget) const {
+  Phases phases;
+  auto decoded = decode(request, limits_, budget);
+  if (!decoded) return std::move(decoded).error();
+  if (!choose_format(request, *decoded))
+    return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
+  if (auto taken = take_predicted(*decoded, decoded->options.verify, limits_, budget); !taken)
+    return std::move(taken).error();
+  phases.end("read");
+  auto answer = compute_refinement(*decoded, budget, phases);
+  if (!answer) return std::move(answer).error();
+  auto payload = proto::encode_refine(*decoded, *std::move(answer), budget);
+  if (!payload) return std::move(payload).error();
+  phases.end("write");
+  return payload_response(*std::move(payload), phases);
+}
+
+Response GeometryHandlers::refine(Request& request) {
+  return granted(request, [&](const Budget& budget) { return refined(request, decode_any, budget); });
 }
 
 Response GeometryHandlers::verify(Request& request) {
-  Begun begun = begin(request, true, decode_any);
-  if (auto* refused = std::get_if<Response>(&begun)) return std::move(*refused);
-  Job& job = std::get<Job>(begun);
-  const Clock::time_point start = Clock::now();
-  const auto report = compute_report(job.request, job.budget);
-  if (!report) return problem_response(report.error());
-  job.timings.verify = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  auto payload = proto::encode_report(job.request, *report, job.timings);
-  if (!payload) return problem_response(payload.error());
-  return payload_response(std::move(payload).value());
+  if (!accepts_json(request)) return not_acceptable("application/json");
+  return granted(request, [&](const Budget& budget) -> Result<Response> {
+    Phases phases;
+    const auto decoded = decode_any(request, limits_, budget);
+    if (!decoded) return decoded.error();
+    if (auto taken = take_predicted(*decoded, true, limits_, budget); !taken) return std::move(taken).error();
+    phases.end("read");
+    const auto report = compute_report(*decoded, budget);
+    if (!report) return report.error();
+    phases.end("verify");
+    auto payload = proto::encode_report(*decoded, *report, {});
+    if (!payload) return std::move(payload).error();
+    phases.end("write");
+    return payload_response(*std::move(payload), phases);
+  });
 }
 
 Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
-  if (kind == proto::CurveTaskKind::refine) return refined(begin(request, false, decode_curves));
-  const Budget budget = budget_for(request);
-  auto admitted = admission_.enter(budget.deadline, request.cancelled);
-  if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
+  if (kind == proto::CurveTaskKind::refine)
+    return granted(request, [&](const Budget& budget) { return refined(request, decode_curves, budget); });
   if (!accepts_json(request)) return not_acceptable("application/json");
-  auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
-  std::string().swap(request.body);
-  if (!decoded) return problem_response(decoded.error());
-  const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes);
-  if (!bytes) return problem_response(bytes.error());
-  auto lease = std::make_shared<Quota::Lease>(memory_);
-  if (auto refused = reserve(memory_, *lease, *bytes)) return *std::move(refused);
-  auto payload = answer_curve_task(*decoded, budget);
-  if (!payload) return problem_response(payload.error());
-  Response response = payload_response(std::move(payload).value());
-  lease->shrink_to(response.size());
-  response.hold = std::move(lease);
-  return response;
+  return granted(request, [&](const Budget& budget) -> Result<Response> {
+    Phases phases;
+    const auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
+    if (!decoded) return decoded.error();
+    const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes);
+    if (!bytes) return bytes.error();
+    if (auto taken = budget.take_memory(*bytes); !taken) return std::move(taken).error();
+    phases.end("read");
+    auto payload = answer_curve_task(*decoded, budget);
+    if (!payload) return std::move(payload).error();
+    phases.end("compute");
+    return payload_response(*std::move(payload), phases);
+  });
 }
 
 Response GeometryHandlers::spectrum(Request& request, std::string_view route) {
@@ -224,21 +229,20 @@ Response GeometryHandlers::spectrum(Request& request, std::string_view route) {
   matches(route, request.path, &steps);
   const auto choice = proto::decode_scheme(steps[0], steps[1], request.query);
   if (!choice) return problem_response(choice.error());
-  const Budget budget = budget_for(request);
-  auto admitted = admission_.enter(budget.deadline, request.cancelled);
-  if (const auto* denied = std::get_if<Admission::Denied>(&admitted)) return not_admitted(*denied);
-  auto spectrum = subdivd::spectrum(*choice, budget);
-  if (!spectrum) {
-    // The valence is a step of the path, everything else a parameter.
-    Path& where = spectrum.error().where;
-    if (where == Path{"valence"} || where == Path{"scheme"}) where.clear();
-    if (!where.empty()) where = {"?" + std::get<std::string>(where[0])};
-    return problem_response(spectrum.error());
-  }
-  Response response;
-  response.content_type = "application/json";
-  response.body.push_back(Bytes::of(proto::spectrum_json(*spectrum)));
-  return response;
+  return granted(request, [&](const Budget& budget) -> Result<Response> {
+    auto spectrum = subdivd::spectrum(*choice, budget);
+    if (!spectrum) {
+      // The valence is a step of the path, everything else a parameter.
+      Path& where = spectrum.error().where;
+      if (where == Path{"valence"} || where == Path{"scheme"}) where.clear();
+      if (!where.empty()) where = {"?" + std::get<std::string>(where[0])};
+      return std::move(spectrum).error();
+    }
+    Response response;
+    response.content_type = "application/json";
+    response.body.push_back(Bytes::of(proto::spectrum_json(*spectrum)));
+    return response;
+  });
 }
 
 std::optional<Response> screen_body(const Request& head) {

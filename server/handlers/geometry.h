@@ -1,24 +1,25 @@
 #pragma once
-// All POST requests: decode, predict, reserve, compute, encode.
+// All POST requests: a grant, then decode, predict, compute, encode within it.
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
-#include <variant>
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "proto/curve_task.h"
 #include "proto/wire.h"
-#include "server/admission.h"
 #include "server/config.h"
+#include "server/grants.h"
 #include "server/transport/message.h"
-#include "server/transport/quota.h"
 
 namespace subdivd::server {
 
 class GeometryHandlers {
  public:
-  GeometryHandlers(const Config& config, Admission& admission, Quota& memory);
+  // Both must outlive the handlers.
+  GeometryHandlers(const Config& config, Grants& grants);
 
   Response refine(Request& request);
   Response verify(Request& request);
@@ -28,19 +29,18 @@ class GeometryHandlers {
   Response spectrum(Request& request, std::string_view route);
 
  private:
-  struct Job;
-  using Begun = std::variant<Job, Response>;  // a Response: the request came no further
+  // Computes the answer within a budget. Called again, with more memory, when the first was short of it.
+  using Attempt = std::function<Result<Response>(const Budget& budget)>;
   using Decode = Result<proto::RefineRequest> (*)(const Request& request, const proto::Limits& limits,
                                                   const Budget& budget);
 
-  Begun begin(Request& request, bool verifying, Decode decode);
-  Response refined(Begun begun);
+  Response granted(Request& request, const Attempt& attempt);
+  Result<Response> refined(const Request& request, Decode decode, const Budget& budget) const;
   Budget budget_for(const Request& request) const;
 
   const Config& config_;
   const proto::Limits limits_;
-  Admission& admission_;
-  Quota& memory_;
+  Grants& grants_;
 };
 
 // What a request's head already tells about its body: a refusal (415), or nothing.

@@ -1,0 +1,130 @@
+#include "server/grants.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace subdivd::server {
+namespace {
+
+// How soon a waiting request notices that it is cancelled, or that a place has become free by passing of
+// time.
+constexpr std::chrono::milliseconds kSlice{50};
+
+// A small request that has run for longer does not keep the next one waiting any more: a few bytes can ask
+// for seconds of work. So many may run at once in the end.
+constexpr std::chrono::milliseconds kOverdue{200};
+constexpr std::size_t kMostSmall = 16;
+
+// The small lane has an eighth of the memory, but not more than it can use.
+constexpr Count kSmallShare = 8, kMostSmallBytes = Count{16} << 20;
+
+}  // namespace
+
+Grants::Grants(const Shares& shares) : max_waiting_(shares.max_waiting) {
+  small_.bytes = std::min(shares.bytes / kSmallShare, kMostSmall * kMostSmallBytes);
+  large_.bytes = shares.bytes - small_.bytes;
+  most_small_bytes_ = std::min(small_.bytes / std::max<Count>(shares.small_places, 1), kMostSmallBytes);
+  small_.free_bytes = small_.bytes;
+  large_.free_bytes = large_.bytes;
+  small_.places = shares.small_places;
+  large_.places = shares.places;
+}
+
+bool Grants::has_place(Lane lane, Clock::time_point now) const {
+  if (lane == Lane::large) return large_.running.size() < large_.places;
+  if (small_.running.size() >= std::max(kMostSmall, small_.places)) return false;
+  const auto in_time = std::count_if(small_.running.begin(), small_.running.end(),
+                                     [&](const Grant* grant) { return now - grant->began_ < kOverdue; });
+  return static_cast<std::size_t>(in_time) < small_.places;
+}
+
+std::variant<std::shared_ptr<Grants::Grant>, Grants::Denied> Grants::enter(
+    const Wish& wish, Clock::time_point deadline, const std::atomic<bool>* cancelled) {
+  std::unique_lock lock(mutex_);
+  const Lane lane = wish.lane == Lane::small && wish.bytes <= most_small_bytes_ ? Lane::small : Lane::large;
+  Pool& pool = this->pool(lane);
+  if (wish.bytes > pool.bytes) return Denied::too_large;
+  const auto fits = [&] { return wish.bytes <= pool.free_bytes && has_place(lane, Clock::now()); };
+  if (!pool.waiting.empty() || !fits()) {
+    if (small_.waiting.size() + large_.waiting.size() >= max_waiting_) return Denied::full;
+    const std::uint64_t number = next_number_++;
+    pool.waiting.push_back(number);
+    const auto my_turn = [&] { return pool.waiting.front() == number && fits(); };
+    std::optional<Denied> denied;
+    while (!denied && !my_turn()) {
+      changed_.wait_until(lock, std::min(deadline, Clock::now() + kSlice), my_turn);
+      if (cancelled != nullptr && *cancelled)
+        denied = Denied::cancelled;
+      else if (Clock::now() >= deadline)
+        denied = Denied::too_late;
+    }
+    pool.waiting.erase(std::find(pool.waiting.begin(), pool.waiting.end(), number));
+    changed_.notify_all();  // the next in line may find its turn come
+    if (denied) return *denied;
+  }
+  std::shared_ptr<Grant> grant(new Grant(*this, lane, wish.bytes, Clock::now()));
+  pool.running.push_back(grant.get());
+  pool.free_bytes -= wish.bytes;
+  return grant;
+}
+
+void Grants::leave_place(Grant& grant) {
+  if (!grant.has_place_) return;
+  grant.has_place_ = false;
+  std::deque<const Grant*>& running = pool(grant.lane_).running;
+  running.erase(std::find(running.begin(), running.end(), &grant));
+}
+
+Grants::Grant::~Grant() { keep_only(0); }
+
+void Grants::Grant::keep_only(Count bytes) {
+  {
+    const std::lock_guard lock(grants_.mutex_);
+    grants_.leave_place(*this);
+    if (bytes < bytes_) {
+      grants_.pool(lane_).free_bytes += bytes_ - bytes;
+      bytes_ = bytes;
+    }
+  }
+  grants_.changed_.notify_all();
+}
+
+Result<void> Grants::Grant::take(Count bytes) {
+  const std::lock_guard lock(grants_.mutex_);
+  Pool& pool = grants_.pool(lane_);
+  const Count most = grants_.large_.bytes;
+  if (bytes > most - std::min(most, bytes_))
+    return Error{ErrorCode::too_large,
+                 "the request would take " + std::to_string(bytes_ + bytes) + " bytes of memory; " +
+                     std::to_string(most) + " are set aside: choose a lower level or a smaller input",
+                 {},
+                 bytes_ + bytes,
+                 most};
+  wanted_ = std::max(wanted_, bytes_ + bytes);
+  const bool allowed = lane_ == Lane::large || bytes_ + bytes <= grants_.most_small_bytes_;
+  if (!allowed || bytes > pool.free_bytes)
+    return Error{ErrorCode::overloaded, "other requests take the memory that this one needs", {}, 0, 0};
+  pool.free_bytes -= bytes;
+  bytes_ += bytes;
+  return {};
+}
+
+Grants::Wish Grants::Grant::wish() const {
+  const std::lock_guard lock(grants_.mutex_);
+  return {wanted_ > grants_.most_small_bytes_ ? Lane::large : lane_, wanted_};
+}
+
+Grants::State Grants::state() const {
+  const std::lock_guard lock(mutex_);
+  State state;
+  state.bytes = small_.bytes + large_.bytes;
+  state.free_bytes = small_.free_bytes + large_.free_bytes;
+  state.places = small_.places + large_.places;
+  const std::size_t running = small_.running.size() + large_.running.size();
+  state.free_places = state.places - std::min(state.places, running);
+  state.waiting = small_.waiting.size() + large_.waiting.size();
+  return state;
+}
+
+}  // namespace subdivd::server
