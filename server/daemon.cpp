@@ -10,6 +10,7 @@
 #include <string>
 
 #include "server/application.h"
+#include "server/housekeeper.h"
 #include "server/log.h"
 #include "server/transport/quota.h"
 #include "server/transport/transport.h"
@@ -18,6 +19,9 @@ namespace subdivd::server {
 namespace {
 
 constexpr std::chrono::milliseconds kLogPatience{500};
+
+// Freed memory that the allocator may keep for the next request.
+constexpr std::uint64_t kLeastSlack = std::uint64_t{16} << 20;
 
 std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<long long>(seconds * 1000));
@@ -40,10 +44,11 @@ struct MemoryShares {
   Count bodies = 0, work = 0;
 };
 
+// The program, its threads and their buffers, measured under load.
+constexpr Count kOwn = Count{24} << 20;
+
 MemoryShares share_out(Count bytes) {
-  // The program, its threads and their buffers, measured under load; of very little memory, half is for
-  // requests.
-  constexpr Count kOwn = Count{24} << 20;
+  // Of very little memory, half is for requests.
   const Count shared = std::max(bytes / 2, bytes - std::min(bytes, kOwn));
   return {shared / 4, shared - shared / 4};
 }
@@ -74,7 +79,13 @@ std::string state_line(const Application& application, const Quota& bodies) {
   add("places_free", work.free_places);
   add("waiting", work.waiting);
   add("log_dropped", dropped_log_lines());
+  add("resident", resident_bytes());
   return line;
+}
+
+Count used_bytes(const Application& application, const Quota& bodies) {
+  const Grants::State work = application.grants().state();
+  return kOwn + (work.bytes - work.free_bytes) + (bodies.total() - bodies.free());
 }
 
 // Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
@@ -105,6 +116,7 @@ int run(const Config& config) {
   // Threads inherit the mask, so the signals wait for sigwait and interrupt nothing.
   const sigset_t signals = handled_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  tune_allocator();
   signal(SIGPIPE, SIG_IGN);  // a closed log must not end the process
   start_log(config.log_level);
   const MemoryShares shares = share_out(config.max_memory_bytes);
@@ -119,6 +131,8 @@ int run(const Config& config) {
     return 1;
   }
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
+  const Housekeeper housekeeper([&] { return used_bytes(application, bodies); },
+                                std::max(config.max_memory_bytes / 32, kLeastSlack));
   wait_for_the_end(signals, application, bodies);
   drain(config, application, transport);
   // A reader of the log that has stalled keeps the writing thread for ever: leave without it.

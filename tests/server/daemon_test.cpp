@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -178,6 +179,52 @@ TEST(Daemon, logs_one_escaped_line_per_request) {
   const std::string log = program.errors();
   EXPECT_NE(log.find(R"(target="/a%0aFAKE" status=404)"), std::string::npos) << log;
   EXPECT_EQ(log.find("\nFAKE"), std::string::npos) << log;
+}
+// A pipe that nobody reads holds 64 KiB: the log of some 500 requests.
+TEST(Daemon, serves_and_ends_while_the_reader_of_its_log_stalls) {
+  const std::string path = ::testing::TempDir() + "subdivd_stalled_log_" + std::to_string(::getpid());
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const int reader = ::open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  Program program({"--port", "0"}, path);
+  RawClient client(program.port());
+  const std::string target = "/" + std::string(300, 'x');
+  for (int i = 0; i < 900; ++i) {
+    client.send(get(target));
+    ASSERT_EQ(client.receive().status, 404) << "request " << i;
+  }
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.exit_code(std::chrono::seconds(10)), 0);
+  ::close(reader);
+  ::unlink(path.c_str());
+}
+TEST(Daemon, is_not_ended_by_signals_that_mean_no_end) {
+  Program program({"--port", "0"});
+  const int port = program.port();
+  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2}) {
+    program.signal(signal);
+    EXPECT_EQ(ask(port, get("/livez")).status, 200) << signal;
+  }
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.exit_code(), 0);
+}
+TEST(Daemon, tells_on_sigusr1_that_nothing_is_taken) {
+  Program program({"--port", "0", "--max-memory-bytes", "64MiB"});
+  const int port = program.port();
+  const std::string body = R"({"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,2]})";
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(ask(port, post("/v1/refine?level=5", body)).status, 200);
+  program.signal(SIGUSR1);
+  std::string log;
+  const auto deadline = Clock::now() + std::chrono::seconds(30);
+  while (log.find(" state ") == std::string::npos && Clock::now() < deadline) log = program.errors();
+  const auto value = [&](const std::string& name) {
+    const std::size_t at = log.rfind(" " + name + "=");
+    return at == std::string::npos ? -1 : std::atoll(log.c_str() + at + name.size() + 2);
+  };
+  EXPECT_GT(value("memory_total"), 0) << log;
+  EXPECT_EQ(value("memory_free"), value("memory_total")) << log;
+  EXPECT_EQ(value("places_free"), value("places_total")) << log;
+  EXPECT_EQ(value("waiting"), 0) << log;
 }
 TEST(Daemon, survives_a_log_that_cannot_be_written) {
   Program program({"--port", "0"}, "/dev/full");

@@ -1,0 +1,63 @@
+#include "server/housekeeper.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+namespace subdivd::server {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval{500};
+
+// By default glibc gives every thread that it sees waiting an arena of its own, up to eight per processor,
+// and no thread reuses what another one's arena holds free. Measured with 400 mixed requests from 4 clients:
+// 2 arenas take as long as 16. A fixed mmap threshold instead, and mimalloc 2.0.9, fault every page of every
+// request in again: 10 times the faults, 40 % more time.
+constexpr int kArenas = 2;
+
+}  // namespace
+
+void tune_allocator() { ::mallopt(M_ARENA_MAX, kArenas); }
+
+std::uint64_t resident_bytes() {
+  std::FILE* file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return 0;
+  unsigned long long size = 0, resident = 0;
+  const int read = std::fscanf(file, "%llu %llu", &size, &resident);
+  std::fclose(file);
+  return read == 2 ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+Housekeeper::Housekeeper(std::function<std::uint64_t()> used, std::uint64_t slack)
+    : used_(std::move(used)), slack_(slack), thread_([this] { run(); }) {}
+
+Housekeeper::~Housekeeper() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  ended_changed_.notify_all();
+  thread_.join();
+}
+
+void Housekeeper::run() {
+  // What stayed resident after the last trim: torn pages that no trim frees. Trimming again before more has
+  // come would cost time and gain nothing.
+  std::uint64_t stuck = 0;
+  std::unique_lock lock(mutex_);
+  while (!ended_changed_.wait_for(lock, kInterval, [this] { return ended_; })) {
+    const std::uint64_t resident = resident_bytes(), used = used_();
+    const std::uint64_t unused = resident - std::min(resident, used);
+    stuck = std::min(stuck, unused);
+    if (unused < stuck + slack_) continue;
+    ::malloc_trim(0);
+    const std::uint64_t after = resident_bytes();
+    stuck = after - std::min(after, used_());
+  }
+}
+
+}  // namespace subdivd::server
