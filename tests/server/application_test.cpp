@@ -363,7 +363,7 @@ TEST(Application, answers_what_is_asked_about_surfaces) {
 // OpenSubdiv takes hundreds of bytes for a point of a curve or surface: reserved before it begins.
 TEST(Application, reserves_what_verifying_takes) {
   Config config = quick_config();
-  config.max_memory_bytes = 16'000'000;
+  config.max_memory_bytes = 20'000'000;
   const RunningApplication server(config);
   for (
       const char* body :
