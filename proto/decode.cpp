@@ -159,10 +159,10 @@ Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, co
 }
 
 Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,
-                              const Timings& timings) {
+                              [[maybe_unused]] const Budget& budget) {
   Payload payload;
   payload.content_type = "application/json";
-  payload.chunks.push_back(Chunk::own(json::report_envelope(request, report, timings)));
+  payload.chunks.push_back(Chunk::own(json::report_envelope(request, report)));
   return payload;
 }
 

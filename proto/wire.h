@@ -88,18 +88,12 @@ struct RefineRequest {
   std::shared_ptr<const gltf::Source> source;
 };
 
-// Milliseconds by phase, as far as they are known when the answer is written.
-struct Timings {
-  double read = 0, refine = 0, verify = 0;
-};
-
 template <class Real>
 struct RefineAnswer {
   std::vector<RefinedMesh<Real>> meshes;  // in the order of the request
   std::vector<RefinedCurves<Real>> curves;
   std::vector<RefinedPatch<Real>> surfaces;
   std::optional<oracle::Report> verification;
-  Timings timings;
 };
 using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
 

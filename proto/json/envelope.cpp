@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -13,16 +12,6 @@ namespace subdivd::proto::json {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// A microsecond is as fine as a clock tells the truth.
-double rounded(double milliseconds) { return std::round(milliseconds * 1000) / 1000; }
-
-Json milliseconds(const RefineRequest& request, const Timings& timings, bool refined) {
-  Json json = {{"read", rounded(timings.read)}};
-  if (refined) json["refine"] = rounded(timings.refine);
-  if (!refined || request.options.verify) json["verify"] = rounded(timings.verify);
-  return json;
-}
 
 // Edges of the control mesh. The number of refined points tells it without finding every edge again, which
 // would take longer than writing the answer; 0 points: there is no refined mesh.
@@ -96,7 +85,7 @@ Json surface_statistics(const ControlPatch& surface, Index level) {
 
 // `refined_points`: of every mesh; empty when nothing was refined.
 Json statistics(const RefineRequest& request, const std::vector<Count>& refined_points) {
-  Json json;
+  Json json = Json::object();
   const Index level = request.options.level;
   for (std::size_t i = 0; i < request.meshes.size(); ++i)
     json["meshes"].push_back(
@@ -139,9 +128,8 @@ Json warnings(const RefineRequest& request, bool refined) {
 }
 
 // Everything but the verification, which is already text.
-std::string assemble(const RefineRequest& request, Json numbers, const Timings& timings, bool refined,
+std::string assemble(const RefineRequest& request, const Json& numbers, bool refined,
                      const oracle::Report* verification) {
-  numbers["milliseconds"] = milliseconds(request, timings, refined);
   std::string text = std::string("{\"options\":") + effective_options(request) +
                      ",\"statistics\":" + numbers.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (const Json texts = warnings(request, refined); !texts.empty())
@@ -160,14 +148,13 @@ std::string envelope(const RefineRequest& request, const AnyAnswer& answer) {
         Json numbers = statistics(request, points);
         add_outputs(numbers, typed);
         const auto* verification = typed.verification ? &*typed.verification : nullptr;
-        return assemble(request, std::move(numbers), typed.timings, true, verification);
+        return assemble(request, numbers, true, verification);
       },
       answer);
 }
 
-std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
-                            const Timings& timings) {
-  return assemble(request, statistics(request, {}), timings, false, &verification);
+std::string report_envelope(const RefineRequest& request, const oracle::Report& verification) {
+  return assemble(request, statistics(request, {}), false, &verification);
 }
 
 }  // namespace subdivd::proto::json

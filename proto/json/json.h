@@ -36,8 +36,7 @@ Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::strin
 // apply are left out.
 std::string envelope(const RefineRequest& request, const AnyAnswer& answer);
 // The same for an answer that is a report only: options, statistics of the input, warnings, verification.
-std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
-                            const Timings& timings);
+std::string report_envelope(const RefineRequest& request, const oracle::Report& verification);
 // The verification member. With the request, faces are numbered as the caller numbered them.
 std::string report(const oracle::Report& report, const RefineRequest* request = nullptr);
 

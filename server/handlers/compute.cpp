@@ -76,18 +76,17 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
 
 template <class Real>
 Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Budget& budget,
-                                   const proto::Timings& timings) {
+                                   Timings& timings) {
   const Stopwatch refining;
   auto answer = refine_all<Real>(request, budget);
   if (!answer) return std::move(answer).error();
-  answer->timings = timings;
-  answer->timings.refine = refining.milliseconds();
+  timings.refine = refining.milliseconds();
   if (request.options.verify) {
     const Stopwatch verifying;
     auto report = verify_all<Real>(request, budget);
     if (!report) return std::move(report).error();
     answer->verification = std::move(report).value();
-    answer->timings.verify = verifying.milliseconds();
+    timings.verify = verifying.milliseconds();
   }
   return proto::AnyAnswer(std::move(answer).value());
 }
@@ -95,7 +94,7 @@ Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Bu
 }  // namespace
 
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
-                                            const proto::Timings& timings) {
+                                            Timings& timings) {
   return proto::answer_precision(request) == proto::Precision::single_precision
              ? answer_in<float>(request, budget, timings)
              : answer_in<double>(request, budget, timings);

@@ -8,10 +8,15 @@
 
 namespace subdivd::server {
 
+// Milliseconds by phase, as far as they are known. No body carries them: equal requests have equal answers.
+struct Timings {
+  double read = 0, refine = 0, verify = 0;
+};
+
 // Refines every mesh, curve and surface, in the precision of the answer; with the report when the options ask
-// for it. `timings` holds what is known so far; the answer's timings continue it.
+// for it. Sets timings.refine, and timings.verify when there is a report.
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
-                                            const proto::Timings& timings);
+                                            Timings& timings);
 
 // Bytes that OpenSubdiv takes for the curves and surfaces of the request, which it refines as meshes: many
 // times their own. `request` is one whose refinement has been predicted.

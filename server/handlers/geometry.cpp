@@ -111,7 +111,7 @@ struct GeometryHandlers::Job {
   std::shared_ptr<Quota::Lease> memory;
   Budget budget;
   proto::RefineRequest request;
-  proto::Timings timings;
+  Timings timings;
 };
 
 GeometryHandlers::GeometryHandlers(const Config& config, Admission& admission, Quota& memory)
@@ -145,7 +145,7 @@ GeometryHandlers::Begun GeometryHandlers::begin(Request& request, bool verifying
                       predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor) +
                       (with_oracle ? oracle_bytes(*decoded) : 0);
   if (auto refused = reserve(memory_, *lease, bytes)) return *std::move(refused);
-  proto::Timings timings;
+  Timings timings;
   timings.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return Job{std::get<Admission::Ticket>(std::move(admitted)), std::move(lease), budget,
              std::move(decoded).value(), timings};
@@ -193,7 +193,7 @@ Response GeometryHandlers::verify(Request& request) {
   const auto report = compute_report(job.request, job.budget);
   if (!report) return problem_response(report.error());
   job.timings.verify = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  auto payload = proto::encode_report(job.request, *report, job.timings);
+  auto payload = proto::encode_report(job.request, *report, job.budget);
   if (!payload) return problem_response(payload.error());
   return payload_response(std::move(payload).value());
 }
