@@ -7,6 +7,7 @@
 #include "core/mesh/repair.h"
 #include "proto/gltf/gltf.h"
 #include "proto/json/json.h"
+#include "proto/json/survey.h"
 #include "proto/options.h"
 #include "proto/prepare.h"
 
@@ -16,32 +17,35 @@ namespace {
 constexpr std::string_view kGlbMagic = "glTF";
 
 Result<RefineRequest> read_gltf(std::string_view body, Format format, const QueryParameters& query,
-                                const Limits& limits, [[maybe_unused]] const Budget& budget) {
+                                const Limits& limits, const Budget& budget) {
   Options options;
   if (Result<void> done = set_parameters(options, query); !done) return done.error();
   return gltf::read(body, format, options, limits, budget);
 }
 
+// One look tells what the body is; then one reader reads it.
 Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                const Limits& limits, [[maybe_unused]] const Budget& budget) {
-  Result<RefineRequest> request = json::read(body, limits, budget);
-  if (!request) {
-    // A glTF document is JSON, too; looking for its mark only now spares every good request the search.
-    if (json::has_member(body, "asset")) {
-      if (kind == BodyKind::unspecified) return read_gltf(body, Format::gltf, query, limits, budget);
-      request.error().message += "; this looks like glTF, whose content type is model/gltf+json";
-    }
-    // A mesh has neither: the body is one curve or surface, with its members at the top.
-    if (!json::has_member(body, "type") && !json::has_member(body, "basis")) return request;
-    request = json::read_curve(body, limits, budget);
-    if (!request) return request;
-  }
+                                const Limits& limits, const Budget& budget) {
+  const Result<json::Survey> survey = json::survey(body, budget);
+  if (!survey) return survey.error();
+  if (survey->has_asset && kind == BodyKind::unspecified)
+    return read_gltf(body, Format::gltf, query, limits, budget);
+  if (survey->has_asset)
+    return Error{ErrorCode::unknown_field,
+                 "the body has an \"asset\" and looks like glTF, whose content type is model/gltf+json",
+                 {"asset"},
+                 0,
+                 0};
+  if (auto taken = budget.take_memory(survey->reading_bytes()); !taken) return taken.error();
+  Result<RefineRequest> request =
+      survey->is_curve() ? json::read_curve(body, limits, budget) : json::read(body, limits, budget);
+  if (!request) return request;
   if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
   return request;
 }
 
 Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const QueryParameters& query,
-                               const Limits& limits, [[maybe_unused]] const Budget& budget) {
+                               const Limits& limits, const Budget& budget) {
   const bool magic = body.starts_with(kGlbMagic);
   switch (kind) {
     case BodyKind::glb:
@@ -111,7 +115,7 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
 }  // namespace
 
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                    const Limits& limits, [[maybe_unused]] const Budget& budget) {
+                                    const Limits& limits, const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
     return Error{ErrorCode::too_large,
                  std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
@@ -154,15 +158,18 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
 Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, const Budget& budget) {
   const Format format = answer_format(request);
   if (format == Format::json) return json::write(request, std::move(answer), budget);
-  const std::string members = json::envelope(request, answer);
-  return gltf::write(request, std::move(answer), format, members, budget);
+  const Result<std::string> members = json::envelope(request, answer, budget);
+  if (!members) return members.error();
+  return gltf::write(request, std::move(answer), format, *members, budget);
 }
 
 Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,
-                              const Timings& timings) {
+                              const Budget& budget) {
+  Result<std::string> text = json::report_envelope(request, report, budget);
+  if (!text) return text.error();
   Payload payload;
   payload.content_type = "application/json";
-  payload.chunks.push_back(Chunk::own(json::report_envelope(request, report, timings)));
+  payload.chunks.push_back(Chunk::own(*std::move(text)));
   return payload;
 }
 

@@ -41,6 +41,6 @@ Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, co
 
 // The report alone, as POST /v1/verify answers it: JSON whatever came in.
 Result<Payload> encode_report(const RefineRequest& request, const oracle::Report& report,
-                              const Timings& timings);
+                              const Budget& budget = {});
 
 }  // namespace subdivd::proto

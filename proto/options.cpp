@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/refine/split.h"
+#include "proto/client_text.h"
 #include "proto/suggest.h"
 
 namespace subdivd::proto {
@@ -147,12 +148,12 @@ Result<void> set_word(Options& options, const OptionSpec& spec, std::string_view
   return {};
 }
 
-Error unknown(std::string_view name, const Path& where) {
-  return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, kNames),
+Error unknown(std::string_view name, std::span<const std::string_view> taken, const Path& where) {
+  return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, taken),
           where, 0, 0};
 }
 
-Path parameter(std::string_view name) { return {std::string("?") + std::string(name)}; }
+Path parameter(std::string_view name) { return {"?" + client_text(name)}; }
 
 // The query's parameter if the query sets the option, otherwise the body's member.
 Path blame(std::string_view name, const QueryParameters& query) {
@@ -222,10 +223,18 @@ std::string valid_values(const OptionSpec& spec) {
   return {};
 }
 
+Result<void> check_option(std::string_view name, std::span<const std::string_view> taken, const Path& where) {
+  if (find_option(name) == nullptr) return unknown(name, taken, where);
+  if (std::ranges::find(taken, name) != taken.end()) return {};
+  return Error{ErrorCode::unknown_field,
+               "this request does not take the option " + in_quotes(name) + "; valid: " + either_of(taken),
+               where, 0, 0};
+}
+
 Result<void> set_option(Options& options, std::string_view name, const OptionValue& value,
                         const Path& where) {
   const OptionSpec* spec = find_option(name);
-  if (spec == nullptr) return unknown(name, where);
+  if (spec == nullptr) return unknown(name, kNames, where);
   if (spec->kind == OptionKind::boolean && value.boolean) {
     spec->set(options, *value.boolean ? 1 : 0);
     return {};
@@ -235,14 +244,17 @@ Result<void> set_option(Options& options, std::string_view name, const OptionVal
     return set_number(options, *spec, *value.number, number.dump(), where);
   }
   if (spec->kind == OptionKind::word && value.text) return set_word(options, *spec, *value.text, where);
-  const std::string_view got = value.boolean ? "a boolean" : value.number ? "a number" : "a string";
+  const std::string_view got = value.boolean  ? "a boolean"
+                               : value.number ? "a number"
+                               : value.text   ? "a string"
+                                              : value.other;
   return refusal(ErrorCode::wrong_type, *spec, got, where);
 }
 
 Result<void> set_parameter(Options& options, std::string_view name, std::string_view text) {
   const Path where = parameter(name);
   const OptionSpec* spec = find_option(name);
-  if (spec == nullptr) return unknown(name, where);
+  if (spec == nullptr) return unknown(name, kNames, where);
   switch (spec->kind) {
     case OptionKind::boolean:
       if (text != "true" && text != "false" && text != "1" && text != "0")
@@ -268,9 +280,11 @@ Result<void> set_parameter(Options& options, std::string_view name, std::string_
   return {};
 }
 
-Result<void> set_parameters(Options& options, const QueryParameters& query) {
+Result<void> set_parameters(Options& options, const QueryParameters& query,
+                            std::span<const std::string_view> taken) {
   std::set<std::string_view> seen;
   for (const auto& [name, text] : query) {
+    if (Result<void> known = check_option(name, taken, parameter(name)); !known) return known;
     if (Result<void> done = set_parameter(options, name, text); !done) return done;
     if (!seen.insert(name).second)
       return Error{ErrorCode::duplicate_field,

@@ -37,20 +37,27 @@ const OptionSpec* find_option(std::string_view name);  // null: no such option
 // "one of a, b or c", "true or false", "a whole number from 0 to 15".
 std::string valid_values(const OptionSpec& spec);
 
-// An option's value as it stands in the body: exactly one of the three is set.
+// An option's value as it stands in the body: exactly one of these is set.
 struct OptionValue {
   std::optional<bool> boolean;
   std::optional<double> number;
   std::optional<std::string_view> text;
+  std::string_view other;  // what no option can be: "null", "an array", "an object"
 };
+
+// Whether there is such an option, and whether it is among those that are taken here; the refusal lists them.
+// `where` goes into the error.
+Result<void> check_option(std::string_view name, std::span<const std::string_view> taken, const Path& where);
 
 // Sets one option; `where` goes into the error. `set_option` takes the body's typed values, `set_parameter`
 // a query parameter's text (booleans: true, false, 1 or 0). Refusals list the valid names or values.
 Result<void> set_option(Options& options, std::string_view name, const OptionValue& value, const Path& where);
 Result<void> set_parameter(Options& options, std::string_view name, std::string_view text);
 
-// All of a query over `options`. A repeated parameter is refused: which of the two was meant?
-Result<void> set_parameters(Options& options, const QueryParameters& query);
+// All of a query over `options`. A repeated parameter is refused: which of the two was meant? `taken`: names
+// of the options that are taken here.
+Result<void> set_parameters(Options& options, const QueryParameters& query,
+                            std::span<const std::string_view> taken = option_names());
 
 // What single values cannot tell: the level against the server's limit, options that exclude each other.
 // `query` tells whether the body or the query is to blame.

@@ -1,11 +1,15 @@
 #include "proto/prepare.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "core/mesh/repair.h"
 #include "core/mesh/scan.h"
+#include "proto/client_text.h"
 #include "proto/json/locate.h"
 #include "proto/suggest.h"
 
@@ -17,13 +21,13 @@ std::string label(const char* kind, std::size_t i, const std::string& name) {
          (name.empty() ? "" : std::string(" (") + in_quotes(name) + ')');
 }
 
-// "points[17]" of {"points", 17}: the core's messages say what is wrong, this says with what.
+// "points[5][2]" of {"points", 5, 2}: the core's messages say what is wrong, this says with what.
 std::string subject(const Path& where) {
   std::string text;
   for (const PathStep& step : where) {
     if (const auto* name = std::get_if<std::string>(&step)) {
       if (!text.empty()) text += '.';
-      text += name->substr(0, 64);
+      text += client_text(*name);
     } else {
       text += '[';
       text += std::to_string(std::get<std::uint64_t>(step));
@@ -45,114 +49,206 @@ void warn_of_dropped(RefineRequest& request, std::size_t i, const json::FaceHist
                              std::to_string(original));
 }
 
-Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceHistory& history,
-                              const Budget& budget) {
-  ControlMesh& mesh = request.meshes[i];
-  history.counts = mesh.face_vertex_counts;
-  if (request.options.triangulate) {
-    Result<std::vector<Index>> split = triangulate(mesh, budget);
-    if (!split) return std::move(split).error();
-    history.triangulated = std::move(*split);
+// Holes, and primvars with values for faces or corners, must fit the faces as they are given: rearranged with
+// the faces they would tell of other faults, or of none.
+Result<void> check_beside_faces(const ControlMesh& mesh, const Budget& budget) {
+  BudgetPoller poller(budget);
+  std::vector<bool> seen(mesh.face_count());
+  for (std::size_t k = 0; k < mesh.hole_indices.size(); ++k) {
+    if (auto stop = poller.spend(1)) return *stop;
+    const Index face = mesh.hole_indices[k];
+    const bool exists = face < seen.size();
+    if (exists && !seen[face]) {
+      seen[face] = true;
+      continue;
+    }
+    return Error{exists ? ErrorCode::duplicate_tag : ErrorCode::out_of_range,
+                 "index " + std::to_string(face) +
+                     (exists ? " is given twice" : " is past the " + std::to_string(seen.size()) + " faces"),
+                 {"holeIndices", std::uint64_t{k}},
+                 0,
+                 0};
   }
-  if (mesh.check(budget)) return {};  // most meshes need no repair, and are looked at once
+  for (const Primvar& primvar : mesh.primvars) {
+    const bool uniform = primvar.interpolation == Interpolation::uniform;
+    if (!uniform && primvar.interpolation != Interpolation::face_varying) continue;
+    const bool indexed = !primvar.indices.empty();
+    const Count expected = uniform ? mesh.face_count() : mesh.face_vertex_indices.size();
+    const Count given =
+        indexed ? primvar.indices.size() : primvar.values.size() / std::max<Index>(primvar.element_size, 1);
+    if (given == expected) continue;
+    return Error{ErrorCode::wrong_length,
+                 "holds " + std::to_string(given) + (indexed ? " indices" : " values") +
+                     "; this interpolation takes " + std::to_string(expected),
+                 {"primvars", primvar.name, indexed ? "indices" : "values"},
+                 0,
+                 0};
+  }
+  return {};
+}
+
+// Bytes of new arrays while faces are rearranged into `faces` triangles: where they come from and, one after
+// the other, what hangs on them.
+Count rearranging_bytes(const ControlMesh& mesh, Count faces) {
+  const Count corners = 3 * faces;
+  Count numbers = 2 * (faces + corners) + 4 * mesh.face_count() + mesh.crease_indices.size();
+  for (const Primvar& primvar : mesh.primvars) {
+    if (primvar.interpolation == Interpolation::uniform) numbers += faces + mesh.face_count();
+    if (primvar.interpolation == Interpolation::face_varying)
+      numbers += corners + mesh.face_vertex_indices.size();
+  }
+  return 2 * numbers * sizeof(Index);
+}
+
+Result<void> split_faces(ControlMesh& mesh, json::FaceHistory& history, const Budget& budget) {
+  const std::vector<Index>& counts = mesh.face_vertex_counts;
+  if (std::ranges::all_of(counts, [](Index count) { return count == 3; })) return {};
+  Count corners = 0;
+  for (const Index count : counts) corners += count;
+  // Whatever else is wrong with them, triangulate() says so.
+  if (corners == mesh.face_vertex_indices.size())
+    if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
+  const Count triangles = corners - std::min(corners, 2 * Count{counts.size()});
+  if (auto taken = budget.take_memory(rearranging_bytes(mesh, triangles)); !taken) return taken;
+  history.counts = counts;
+  Result<std::vector<Index>> split = triangulate(mesh, budget);
+  if (!split) return std::move(split).error();
+  history.triangulated = std::move(*split);
+  return {};
+}
+
+Result<void> drop_faces(RefineRequest& request, std::size_t i, json::FaceHistory& history,
+                        const Budget& budget) {
+  ControlMesh& mesh = request.meshes[i];
   const std::size_t faces = mesh.face_count();
+  if (mesh.face_vertex_indices.size() == 3 * faces)
+    if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
+  if (auto taken = budget.take_memory(rearranging_bytes(mesh, faces)); !taken) return taken;
+  if (history.triangulated.empty()) history.counts = mesh.face_vertex_counts;
+  history.crease_indices = mesh.crease_indices;
+  history.crease_lengths = mesh.crease_lengths;
+  history.sharp_edges = mesh.crease_sharpnesses.size() != mesh.crease_lengths.size();
   Result<std::vector<Index>> kept = drop_degenerate_faces(mesh, budget);
   if (!kept) return std::move(kept).error();
   history.kept = std::move(*kept);
   if (!history.kept.empty()) warn_of_dropped(request, i, history, faces);
+  return {};
+}
+
+bool is_stop(const Error& error) {
+  return error.code == ErrorCode::cancelled || error.code == ErrorCode::deadline_exceeded ||
+         error.code == ErrorCode::overloaded;
+}
+
+Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceHistory& history,
+                              const Budget& budget) {
+  ControlMesh& mesh = request.meshes[i];
+  if (request.options.triangulate)
+    if (auto split = split_faces(mesh, history, budget); !split) return split;
+  // Most meshes need no repair, and are looked at once.
+  Result<void> fine = mesh.check(budget);
+  const bool repeats = !fine && fine.error().code == ErrorCode::not_a_triangle &&
+                       fine.error().where.size() == 2 &&
+                       fine.error().where[0] == PathStep("faceVertexIndices");
+  if (fine || is_stop(fine.error()) || !repeats) return fine;
+  if (auto dropped = drop_faces(request, i, history, budget); !dropped) return dropped;
   return mesh.check(budget);
 }
 
 // What single precision cannot hold would come out infinite.
-Result<void> check_fits(const std::vector<double>& values, const Path& where) {
-  if (all_within(values, FLT_MAX)) return {};
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (std::fabs(values[k]) > FLT_MAX) {
-      Path place = where;
-      place.emplace_back(std::uint64_t{k});
-      return Error{ErrorCode::out_of_range,
-                   "this is too large for single precision; take precision double or scale it down",
-                   std::move(place), 0, 0};
-    }
+Result<void> check_fits(std::span<const double> values, const Path& where, const Budget& budget) {
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
+    if (auto stop = budget.poll()) return *stop;
+    const auto block = values.subspan(begin, std::min(kBlock, values.size() - begin));
+    if (all_within(block, FLT_MAX)) continue;
+    const auto bad = std::ranges::find_if(block, [](double x) { return std::fabs(x) > FLT_MAX; });
+    if (bad == block.end()) continue;
+    Path place = where;
+    place.emplace_back(std::uint64_t{begin} + static_cast<std::uint64_t>(bad - block.begin()));
+    return Error{ErrorCode::out_of_range,
+                 "this is too large for single precision; take precision double or scale it down",
+                 std::move(place), 0, 0};
+  }
   return {};
 }
 
-Result<void> check_fits(const ControlMesh& mesh) {
-  if (Result<void> fine = check_fits(mesh.points, {"points"}); !fine) return fine;
+Result<void> check_fits(const ControlMesh& mesh, const Budget& budget) {
+  if (Result<void> fine = check_fits(mesh.points, {"points"}, budget); !fine) return fine;
   for (const Primvar& primvar : mesh.primvars)
-    if (Result<void> fine = check_fits(primvar.values, {"primvars", primvar.name, "values"}); !fine)
+    if (auto fine = check_fits(primvar.values, {"primvars", primvar.name, "values"}, budget); !fine)
       return fine;
   return {};
 }
 
-Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
-  json::FaceHistory history;
-  Result<void> fine = repair_and_check(request, i, history, budget);
-  if (fine && answer_precision(request) == Precision::single_precision) fine = check_fits(request.meshes[i]);
-  if (history.changed()) {
-    request.face_origins.resize(request.meshes.size());
-    request.face_origins[i] = history.original_faces();
-  }
-  if (fine) return {};
-  Error error = std::move(fine).error();
-  if (const std::string what = subject(error.where); !what.empty())
-    error.message = what + ": " + error.message;
-  if (request.input == Format::json)
-    error.where = json::locate(std::move(error.where), request.meshes[i], request.mesh_forms[i], history);
-  return blame_input(request, std::move(error), "meshes", i);
-}
-
-Result<void> prepare_curves(RefineRequest& request, std::size_t i, const Budget& budget) {
-  const ControlCurves& curves = request.curves[i];
-  Result<void> fine = curves.check(budget);
-  if (fine && answer_precision(request) == Precision::single_precision) {
-    fine = check_fits(curves.points, {"points"});
-    // As check() does: the point, not the scalar.
-    if (!fine) std::get<std::uint64_t>(fine.error().where.back()) /= curves.width;
-  }
-  if (fine) return {};
-  Error error = std::move(fine).error();
-  if (request.input == Format::json)
-    error.where = json::locate(std::move(error.where), curves, request.curve_forms[i]);
-  return blame_input(request, std::move(error), "curves", i);
-}
-
-// The core's places of a surface are the wire's.
-Result<void> prepare_surface(RefineRequest& request, std::size_t i, const Budget& budget) {
-  const ControlPatch& surface = request.surfaces[i];
-  Result<void> fine = surface.check(budget);
-  if (fine && answer_precision(request) == Precision::single_precision)
-    fine = check_fits(surface.points, {"points"});
-  if (fine) return {};
-  Error error = std::move(fine).error();
-  if (error.where.size() == 2) {  // a number among the points
-    const std::uint64_t scalar = std::get<std::uint64_t>(error.where[1]);
-    if (request.surface_forms[i] == ArrayForm::nested)
-      error.where = {"points", scalar / surface.width, scalar % surface.width};
-  }
-  return blame_input(request, std::move(error), "surfaces", i);
-}
-
-}  // namespace
-
-Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i) {
+// THE place where places of the core become pointers into the body.
+Error blame(const RefineRequest& request, Error error, const char* of, std::size_t i,
+            const json::FaceHistory& history) {
+  if (is_stop(error)) return error;
   const std::string_view kind = of;
+  const bool mesh = kind == "meshes", curves = kind == "curves";
   if (request.input != Format::json) {
-    // A glTF body holds no surfaces.
-    const bool mesh = kind == "meshes";
+    // A glTF body holds no surfaces, and no arrays of numbers to point into.
+    if (const std::string what = subject(error.where); mesh && !what.empty())
+      error.message = what + ": " + error.message;
     const std::string& name = mesh ? request.meshes[i].name : request.curves[i].name;
     error.message = label(mesh ? "mesh" : "curve", i, name) + ": " + error.message;
     error.where.clear();
     return error;
   }
-  const bool at_top = kind == "meshes"   ? request.single_mesh_at_top
-                      : kind == "curves" ? request.single_curve_at_top
-                                         : request.single_surface_at_top;
-  if (at_top) return error;
-  Path where = {of, std::uint64_t{i}};
-  where.insert(where.end(), error.where.begin(), error.where.end());
-  error.where = std::move(where);
+  Path place = std::move(error.where);
+  if (mesh)
+    place = json::locate(std::move(place), request.meshes[i], request.mesh_forms[i], history);
+  else if (curves)
+    place = json::locate(std::move(place), request.curves[i], request.curve_forms[i]);
+  else
+    place = json::locate(std::move(place), request.surfaces[i], request.surface_forms[i]);
+  // Of a mesh the core says "is …", of the others whole sentences.
+  if (const std::string what = subject(place); mesh && !what.empty())
+    error.message = what + ": " + error.message;
+  const bool at_top = mesh     ? request.single_mesh_at_top
+                      : curves ? request.single_curve_at_top
+                               : request.single_surface_at_top;
+  if (!at_top) error.where = {of, std::uint64_t{i}};
+  error.where.insert(error.where.end(), std::make_move_iterator(place.begin()),
+                     std::make_move_iterator(place.end()));
   return error;
+}
+
+Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
+  json::FaceHistory history;
+  Result<void> fine = repair_and_check(request, i, history, budget);
+  if (fine && answer_precision(request) == Precision::single_precision)
+    fine = check_fits(request.meshes[i], budget);
+  if (!fine) return blame(request, std::move(fine).error(), "meshes", i, history);
+  if (history.changed()) {
+    request.face_origins.resize(request.meshes.size());
+    request.face_origins[i] = history.original_faces();
+  }
+  return {};
+}
+
+Result<void> prepare_curves(RefineRequest& request, std::size_t i, const Budget& budget) {
+  const ControlCurves& curves = request.curves[i];
+  Result<void> fine = curves.check(budget);
+  if (fine && answer_precision(request) == Precision::single_precision)
+    fine = check_fits(curves.points, {"points"}, budget);
+  return fine ? fine : blame_input(request, std::move(fine).error(), "curves", i);
+}
+
+Result<void> prepare_surface(RefineRequest& request, std::size_t i, const Budget& budget) {
+  const ControlPatch& surface = request.surfaces[i];
+  Result<void> fine = surface.check(budget);
+  if (fine && answer_precision(request) == Precision::single_precision)
+    fine = check_fits(surface.points, {"points"}, budget);
+  return fine ? fine : blame_input(request, std::move(fine).error(), "surfaces", i);
+}
+
+}  // namespace
+
+Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i) {
+  // What is found after checking stands in points and values, which no repair of faces moves.
+  return blame(request, std::move(error), of, i, {});
 }
 
 Result<void> prepare(RefineRequest& request, const Budget& budget) {

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "proto/client_text.h"
+
 namespace subdivd::proto {
 namespace {
 
@@ -23,7 +25,8 @@ void append_escaped(std::string& pointer, std::string_view step) {
 std::string parameter_of(const Path& where) {
   if (where.empty()) return {};
   const auto* first = std::get_if<std::string>(&where.front());
-  return first != nullptr && first->starts_with('?') ? first->substr(1) : std::string();
+  if (first == nullptr || !first->starts_with('?')) return {};
+  return client_text(std::string_view(*first).substr(1));
 }
 
 }  // namespace
@@ -33,7 +36,7 @@ std::string json_pointer(const Path& path) {
   for (const PathStep& step : path) {
     pointer += '/';
     if (const auto* name = std::get_if<std::string>(&step))
-      append_escaped(pointer, *name);
+      append_escaped(pointer, client_text(*name));
     else
       pointer += std::to_string(std::get<std::uint64_t>(step));
   }
@@ -125,8 +128,9 @@ Problem to_problem(const Error& error, int status) {
   if (item.parameter.empty()) item.pointer = json_pointer(error.where);
   item.code = problem.code;
   item.detail = error.message;
-  // Nothing in the body is to blame when the clock or the caller ended the work.
-  if (error.code != ErrorCode::deadline_exceeded && error.code != ErrorCode::cancelled)
+  // Nothing in the body is to blame when the clock, the caller or the lack of memory ended the work.
+  if (error.code != ErrorCode::deadline_exceeded && error.code != ErrorCode::cancelled &&
+      error.code != ErrorCode::overloaded)
     problem.errors.push_back(std::move(item));
   if (error.code == ErrorCode::too_large && (error.predicted != 0 || error.allowed != 0)) {
     problem.predicted = error.predicted;

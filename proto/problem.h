@@ -39,7 +39,7 @@ Problem to_problem(const Error& error, int status);
 // One sentence without an article's full stop, e.g. "A number is outside its range".
 std::string_view title_of(ErrorCode code);
 
-// RFC 6901: every step after a '/', '~' as "~0", '/' as "~1".
+// RFC 6901: every step after a '/', '~' as "~0", '/' as "~1". Names are cut as client_text.h says.
 std::string json_pointer(const Path& path);
 
 }  // namespace subdivd::proto

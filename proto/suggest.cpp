@@ -4,10 +4,11 @@
 #include <array>
 #include <cstddef>
 
+#include "proto/client_text.h"
+
 namespace subdivd::proto {
 namespace {
 
-constexpr std::size_t kLongestQuoted = 64;
 constexpr std::size_t kLongestCompared = 48;  // no valid word is longer; keeps the table below small
 constexpr std::size_t kMostSlips = 2;
 
@@ -34,13 +35,7 @@ std::size_t slips(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string in_quotes(std::string_view word) {
-  const bool cut = word.size() > kLongestQuoted;
-  std::string text = "\"";
-  text += word.substr(0, kLongestQuoted);
-  text += cut ? "…\"" : "\"";
-  return text;
-}
+std::string in_quotes(std::string_view word) { return '"' + client_text(word) + '"'; }
 
 std::string either_of(std::span<const std::string_view> words) {
   std::string text;

@@ -7,8 +7,7 @@
 
 namespace subdivd::proto {
 
-// "\"word\"" as a message may repeat it: cut to 64 bytes, so that a megabyte of a caller's text does not
-// come back in every refusal.
+// "\"word\"" as a message may repeat it (client_text.h).
 std::string in_quotes(std::string_view word);
 
 // "a, b or c"; empty for an empty list.

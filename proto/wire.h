@@ -65,6 +65,18 @@ struct JsonMeshForm {
   std::vector<ArrayForm> primvars;      // values, in the order of ControlMesh::primvars
 };
 
+struct JsonCurvesForm {
+  ArrayForm points = ArrayForm::nested;
+  ArrayForm ranges = ArrayForm::nested;
+  bool order_list = false;  // order is an array
+};
+
+struct JsonSurfaceForm {
+  ArrayForm points = ArrayForm::nested;
+  // What the body has itself; the rest followed from its other members.
+  bool u_degree = true, v_degree = true, u_count = true, v_count = true;
+};
+
 namespace gltf {
 class Source;  // the original document and its buffers, for patching (proto/gltf/source.h)
 }
@@ -83,14 +95,10 @@ struct RefineRequest {
   bool single_mesh_at_top = false, single_curve_at_top = false, single_surface_at_top = false;
   bool without_meshes = false;  // the door takes none, and its answers name none
   std::vector<JsonMeshForm> mesh_forms;
-  std::vector<ArrayForm> curve_forms, surface_forms;
+  std::vector<JsonCurvesForm> curve_forms;
+  std::vector<JsonSurfaceForm> surface_forms;
   // glTF only: meshes and curves of this request belong to source in the order it knows
   std::shared_ptr<const gltf::Source> source;
-};
-
-// Milliseconds by phase, as far as they are known when the answer is written.
-struct Timings {
-  double read = 0, refine = 0, verify = 0;
 };
 
 template <class Real>
@@ -99,7 +107,6 @@ struct RefineAnswer {
   std::vector<RefinedCurves<Real>> curves;
   std::vector<RefinedPatch<Real>> surfaces;
   std::optional<oracle::Report> verification;
-  Timings timings;
 };
 using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
 

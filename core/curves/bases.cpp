@@ -231,7 +231,7 @@ Result<std::vector<BezierPiece>> cubic_pieces(const Spline& spline, const Budget
                          " has no exact cubic form; take nurbs, or reduce its degree first");
   const auto cubic = elevate_degree(spline, 3 - spline.degree, budget);
   if (!cubic) return cubic.error();
-  return bezier_pieces(*cubic);
+  return bezier_pieces(*cubic, budget);
 }
 
 // Sees to it that what ought to be equal is, and remembers how far it was from it.

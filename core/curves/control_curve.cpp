@@ -67,7 +67,7 @@ Result<void> check_basis(const ControlCurves& curves) {
   }
 }
 
-Result<void> check_points(const ControlCurves& curves) {
+Result<void> check_points(const ControlCurves& curves, const Budget& budget) {
   if (curves.width < 1 || curves.width > kMaxCurveWidth)
     return Error{ErrorCode::out_of_range,
                  "points have " + std::to_string(curves.width) + " components each; 1 to " +
@@ -84,12 +84,16 @@ Result<void> check_points(const ControlCurves& curves) {
                  {"points"},
                  curves.point_count(),
                  kMaxIndexCount};
-  for (Count k = 0; k < curves.points.size(); ++k)
+  BudgetPoller poller(budget);
+  for (Count k = 0; k < curves.points.size(); ++k) {
+    if (k % BudgetPoller::kInterval == 0)
+      if (auto stop = poller.spend(BudgetPoller::kInterval)) return *stop;
     if (!std::isfinite(curves.points[k]))
       return Error{ErrorCode::not_finite,
                    "component " + std::to_string(k % curves.width) + " of point " +
                        std::to_string(k / curves.width) + " is not a finite number",
                    {"points", k}};
+  }
   return {};
 }
 
@@ -120,10 +124,10 @@ Index least_points(const ControlCurves& curves) {
   return split.dual ? 3 : 2;
 }
 
-Result<void> ControlCurves::check([[maybe_unused]] const Budget& budget) const {
+Result<void> ControlCurves::check(const Budget& budget) const {
   if (auto checked = check_basis(*this); !checked) return checked;
-  if (auto checked = check_points(*this); !checked) return checked;
-  if (!is_subdivided(basis)) return check_piecewise(*this);
+  if (auto checked = check_points(*this, budget); !checked) return checked;
+  if (!is_subdivided(basis)) return check_piecewise(*this, budget);
   const Count given = point_count();
   const Index needed = least_points(*this);
   if (vertex_counts.empty()) {
@@ -131,7 +135,9 @@ Result<void> ControlCurves::check([[maybe_unused]] const Budget& budget) const {
     return {};
   }
   Count taken = 0;  // cannot wrap: fewer than 2^32 points each, and the list fits in memory
+  BudgetPoller poller(budget);
   for (Count c = 0; c < vertex_counts.size(); ++c) {
+    if (auto stop = poller.spend(1)) return *stop;
     if (vertex_counts[c] < needed) return too_few(*this, vertex_counts[c], {"curveVertexCounts", c});
     taken += vertex_counts[c];
   }

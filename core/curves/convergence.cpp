@@ -274,13 +274,29 @@ Result<void> check_request(const ControlCurves& curves, Index curve, Index level
                      std::to_string(kMaxCurveLevel) + " for curves",
                  {}};
   const Count points = refined_point_count(curves, curves.points_of_curve(curve), levels);
+  if (points > kMostConvergencePoints)
+    return Error{ErrorCode::too_large,
+                 "the last level would have " + std::to_string(points) + " points; " +
+                     std::to_string(kMostConvergencePoints) + " are allowed: ask for fewer levels",
+                 {},
+                 points,
+                 kMostConvergencePoints};
   const Count copies = curves.wrap == CurveWrap::pinned ? 4 : 2;
-  return budget.check_bytes(points * curves.width * copies * sizeof(double));
+  const Count bytes = points * curves.width * copies * sizeof(double);
+  if (auto allowed = budget.check_bytes(bytes); !allowed) return allowed;
+  return budget.take_memory(bytes);
 }
 
 }  // namespace
 
 Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve, Index levels,
+                                        const Budget& budget) {
+  Count first = 0;
+  for (Index c = 0; c < curve && c < curves.vertex_counts.size(); ++c) first += curves.vertex_counts[c];
+  return measure_convergence(curves, curve, first, levels, budget);
+}
+
+Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve, Count first, Index levels,
                                         const Budget& budget) {
   if (auto checked = check_request(curves, curve, levels, budget); !checked) return checked.error();
   Convergence result;
@@ -290,8 +306,6 @@ Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve
     result.ratios.assign(levels, 0);
     return result;
   }
-  Count first = 0;
-  for (Index c = 0; c < curve; ++c) first += curves.vertex_counts[c];
   const Count points = curves.points_of_curve(curve);
   const std::span<const double> all(curves.points);
   Differences differences = differences_of(curves, all.subspan(first * curves.width, points * curves.width),

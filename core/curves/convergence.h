@@ -23,11 +23,18 @@ struct Convergence {
   std::vector<double> ratios;
 };
 
-// Of one curve of `curves`, which must have passed check(). Refuses other bases than bspline (unsupported), a
+// The most points that the last level may have: four million take seconds.
+inline constexpr Count kMostConvergencePoints = Count{1} << 22;
+
+// Of one curve of `curves`, which must have passed check(). Refuses more than kMostConvergencePoints points
+// (too_large), other bases than bspline (unsupported), a
 // curve that does not exist or more than kMaxCurveLevel levels (out_of_range), working memory (twice the
 // points of the last level, in doubles; four times of pinned curves) over budget.max_bytes (too_large), and
 // distances that outgrow a double. Polls the budget.
 Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve, Index levels,
+                                        const Budget& budget);
+// The same where its points begin with number `first`, which takes no walk over the curves before it.
+Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve, Count first, Index levels,
                                         const Budget& budget);
 
 }  // namespace subdivd

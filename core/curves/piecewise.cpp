@@ -128,7 +128,10 @@ Path shifted(Path where, const ControlCurves& curves, Count curve, CurvePlace pl
   if (field == "pointWeights") index += place.points;
   if (field == "points") {
     // Stored points have their weights among them.
-    if (!curves.weights.empty()) index = index / (curves.width + 1) * curves.width;
+    if (!curves.weights.empty()) {
+      const std::uint64_t stored = curves.width + std::uint64_t{1};
+      index = index / stored * curves.width + std::min<std::uint64_t>(index % stored, curves.width - 1);
+    }
     index += place.points * curves.width;
   }
   return where;
@@ -144,11 +147,21 @@ Result<void> check_weights(const ControlCurves& curves) {
   return {};
 }
 
-Result<void> check_on_knots(const ControlCurves& curves) {
+// The largest curve as a spline of its own.
+Result<void> take_spline(const ControlCurves& curves, const Budget& budget) {
+  Count most = 0;
+  for (Count c = 0; c < curves.curve_count(); ++c) most = std::max(most, curves.points_of_curve(c));
+  return budget.take_memory((most * (Count{curves.width} + 2) + kMaxDegree + 1) * sizeof(double));
+}
+
+Result<void> check_on_knots(const ControlCurves& curves, const Budget& budget) {
   if (auto fine = check_lengths(curves); !fine) return fine;
   if (auto fine = check_weights(curves); !fine) return fine;
+  if (auto taken = take_spline(curves, budget); !taken) return taken;
+  BudgetPoller poller(budget);
   CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); ++c) {
+    if (auto stop = poller.spend(curves.points_of_curve(c))) return *stop;
     const Spline spline = spline_on_knots(curves, c, place);
     if (auto fine = spline.check(); !fine) {
       fine.error().where = shifted(std::move(fine.error().where), curves, c, place);
@@ -181,10 +194,12 @@ std::vector<CurvePlace> curve_places(const ControlCurves& curves) {
   return places;
 }
 
-Result<void> check_piecewise(const ControlCurves& curves) {
+Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget) {
   const bool many = !curves.vertex_counts.empty();
   Count taken = 0;
+  BudgetPoller poller(budget);
   for (Count c = 0; c < curves.curve_count(); ++c) {
+    if (auto stop = poller.spend(1)) return *stop;
     const Path where = many ? Path{"curveVertexCounts", std::uint64_t{c}} : Path{"points"};
     if (auto fine = check_count(curves, curves.points_of_curve(c), where); !fine) return fine;
     taken += curves.points_of_curve(c);
@@ -194,7 +209,7 @@ Result<void> check_piecewise(const ControlCurves& curves) {
                  "the counts of curveVertexCounts add up to " + std::to_string(taken) + "; there are " +
                      std::to_string(curves.point_count()) + " points",
                  {"curveVertexCounts"});
-  return curves.basis == CurveBasis::nurbs ? check_on_knots(curves) : Result<void>();
+  return curves.basis == CurveBasis::nurbs ? check_on_knots(curves, budget) : Result<void>();
 }
 
 namespace {

@@ -28,7 +28,7 @@ Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace pl
 
 // The part of check() for bases that are given by pieces or on knots. Places as the JSON names them: points
 // and curveVertexCounts, order, knots, ranges, pointWeights with the index in the whole array.
-Result<void> check_piecewise(const ControlCurves& curves);
+Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget = {});
 
 // Points of all curves after `level` steps: of a chain of s segments 3 s 2^l + 1, on knots n + s (2^l - 1) of
 // s spans.

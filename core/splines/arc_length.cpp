@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/base/precision.h"
 #include "core/splines/bounds.h"
+#include "core/splines/growing_memory.h"
 #include "core/splines/measurement.h"
 #include "core/splines/speed_piece.h"
 
@@ -23,6 +25,12 @@ struct Measured {
     return mine != others ? mine < others : piece.derivative.begin > other.piece.derivative.begin;
   }
 };
+
+// Of N, of dimension + 1 scalars, and of the weights: two blocks.
+Count bytes_elsewhere(const Spline& spline) {
+  const Count p = spline.degree, rows = spline.rational ? 2 * p - 1 : p;
+  return 2 * kBytesPerBlock + (rows * (spline.dimension() + Count{1}) + p + 1) * sizeof(double);
+}
 
 struct Survey {
   std::vector<Measured> pieces;  // a heap, until put in order
@@ -45,6 +53,10 @@ Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, 
   Survey survey;
   std::vector<int> exponents;
   const Count first = find_span(spline, a), last = find_span(spline, b);
+  const Count each = sizeof(Measured) + sizeof(int) + bytes_elsewhere(spline);
+  if (auto taken = budget.take_memory((last - first + 1) * each); !taken) return taken.error();
+  survey.pieces.reserve(last - first + 1);
+  exponents.reserve(last - first + 1);
   for (Count span = first; span <= last; ++span) {
     const double begin = spline.knots[span], end = spline.knots[span + 1];
     const double from = std::max(a, begin), to = std::min(b, end);
@@ -66,6 +78,8 @@ Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, 
   if (exponents.empty()) return survey;
   survey.exponent = *std::ranges::max_element(exponents);
   for (Count i = 0; i < exponents.size(); ++i) {
+    if (i % kPiecesPerPoll == 0)
+      if (auto stop = budget.poll()) return *stop;
     Measured& one = survey.pieces[i];
     one.piece.width = std::ldexp(one.piece.width, exponents[i] - survey.exponent);
     one.length = ruler.measure(one.piece);
@@ -98,6 +112,9 @@ Result<Survey> survey_of(const Spline& spline, const Ruler& ruler, double a, dou
   Survey& survey = *surveyed;
   std::make_heap(survey.pieces.begin(), survey.pieces.end());
   add_up(survey);
+  const Count at_first = survey.pieces.size();
+  GrowingMemory memory(budget, sizeof(Measured), bytes_elsewhere(spline));
+  bool moved = false;             // growing once moves the first ones, too
   double running = survey.bound;  // kept up to date piece by piece; add_up has the last word
   for (Count steps = 1;; ++steps) {
     if (running <= options.tolerance * survey.length || steps % 4096 == 0) {
@@ -115,6 +132,10 @@ Result<Survey> survey_of(const Spline& spline, const Ruler& ruler, double a, dou
     }
     if (steps % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
+    if (auto taken = memory.hold(survey.pieces.size() + 1 - std::min(at_first, survey.pieces.size())); !taken)
+      return taken.error();
+    if (!std::exchange(moved, true))
+      if (auto taken = budget.take_memory(2 * at_first * sizeof(Measured)); !taken) return taken.error();
     std::pop_heap(survey.pieces.begin(), survey.pieces.end());
     const Measured old = std::move(survey.pieces.back());
     survey.pieces.pop_back();

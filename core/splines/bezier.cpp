@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/splines/growing_memory.h"
 #include "core/splines/knot_insertion.h"
 
 namespace subdivd {
@@ -25,11 +26,27 @@ std::vector<double> missing_knots(const Spline& spline) {
 }  // namespace
 
 std::vector<BezierPiece> bezier_pieces(const Spline& spline) {
-  const Result<Spline> refined = refine_knots(spline, missing_knots(spline), {});
-  assert(refined.ok());
+  auto pieces = bezier_pieces(spline, Budget{});
+  assert(pieces.ok());
+  return *std::move(pieces);
+}
+
+Result<std::vector<BezierPiece>> bezier_pieces(const Spline& spline, const Budget& budget) {
   const Index p = spline.degree;
+  const Count spans = spline.point_count() - p;
+  // Every span gets p points and knots of its own, and the lists of knots grow; then the pieces.
+  const Count knots = spline.knots.size() + (spans + 1) * p;
+  const Count refining = knots * (spline.width + 5) * sizeof(double);
+  const Count in_pieces =
+      sizeof(BezierPiece) + kBytesPerBlock + (Count{p} + 1) * spline.width * sizeof(double);
+  if (auto taken = budget.take_memory(refining + spans * in_pieces); !taken) return taken.error();
+  const Result<Spline> refined = refine_knots(spline, missing_knots(spline), budget);
+  if (!refined) return refined.error();
   std::vector<BezierPiece> pieces;
+  pieces.reserve(spans);
+  BudgetPoller poller(budget);
   for (Count k = 0; k + 1 < refined->knots.size(); ++k) {
+    if (auto stop = poller.spend(8)) return *stop;
     const double begin = refined->knots[k], end = refined->knots[k + 1];
     if (begin < spline.begin() || end > spline.end() || !(begin < end)) continue;
     // Both ends stand p times at least: the points of the span are those of the piece.

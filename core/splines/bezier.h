@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
+#include "core/base/result.h"
 #include "core/splines/spline.h"
 
 namespace subdivd {
@@ -20,6 +22,8 @@ struct BezierPiece {
 
 // All pieces, in order, by inserting every knot until it stands `degree` times.   [PieglTiller97, A5.6]
 std::vector<BezierPiece> bezier_pieces(const Spline& spline);
+// The same within a budget: takes the memory before it allocates it, and polls.
+Result<std::vector<BezierPiece>> bezier_pieces(const Spline& spline, const Budget& budget);
 
 // The two halves of a piece.   [de Casteljau]
 std::array<BezierPiece, 2> halves(const BezierPiece& piece, Index width);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/precision.h"
+#include "core/splines/growing_memory.h"
 #include "core/splines/measurement.h"
 
 namespace subdivd {
@@ -80,7 +81,7 @@ BezierPiece coordinate_of(const BezierPiece& piece, const Spline& spline, Index 
 // The largest value of sign * coordinate k, from above, to within the rounding of halving: halves the piece
 // that could reach highest until none could reach more than has been attained.
 Result<double> highest(const Spline& local, std::span<const BezierPiece> pieces, Index k, double sign,
-                       const Budget& budget) {
+                       const Budget& budget, GrowingMemory& memory) {
   const Index width = local.rational ? 2 : 1;
   const double tolerance = 8 * (local.degree + 1) * kRoundoff;
   double attained = -1;
@@ -96,6 +97,7 @@ Result<double> highest(const Spline& local, std::span<const BezierPiece> pieces,
   for (const BezierPiece& piece : pieces) {
     if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
+    if (auto taken = memory.hold(heap.size() + 1); !taken) return taken.error();
     consider(coordinate_of(piece, local, k, sign), 0);
   }
   while (!heap.empty() && heap.front().top > attained + tolerance && heap.front().depth < kMaxDepth) {
@@ -104,6 +106,7 @@ Result<double> highest(const Spline& local, std::span<const BezierPiece> pieces,
     std::pop_heap(heap.begin(), heap.end());
     const Slope slope = std::move(heap.back());
     heap.pop_back();
+    if (auto taken = memory.hold(heap.size() + 2); !taken) return taken.error();
     for (BezierPiece& half : halves(slope.piece, width)) consider(std::move(half), slope.depth + 1);
   }
   return heap.empty() ? attained : std::max(attained, heap.front().top);
@@ -183,13 +186,17 @@ std::vector<double> product_weights(Index degree) {
 Result<Box> bounds(const Spline& spline, const Budget& budget) {
   const Result<LocalSpline> local = localized(spline);
   if (!local) return local.error();
-  const std::vector<BezierPiece> pieces = bezier_pieces(local->spline);
+  const auto pieces = bezier_pieces(local->spline, budget);
+  if (!pieces) return pieces.error();
+  // One heap at a time, of a coordinate alone and its weight.
+  GrowingMemory memory(budget, sizeof(Slope),
+                       kBytesPerBlock + 4 * (Count{spline.degree} + 1) * sizeof(double));
   Box box = local->control;
   for (Index k = 0; k < spline.dimension(); ++k) {
     if (box.low[k] == box.high[k]) continue;
-    const Result<double> high = highest(local->spline, pieces, k, 1, budget);
+    const Result<double> high = highest(local->spline, *pieces, k, 1, budget, memory);
     if (!high) return high.error();
-    const Result<double> low = highest(local->spline, pieces, k, -1, budget);
+    const Result<double> low = highest(local->spline, *pieces, k, -1, budget, memory);
     if (!low) return low.error();
     box.low[k] = local->to_global(k, -*low);
     box.high[k] = local->to_global(k, *high);

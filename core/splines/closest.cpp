@@ -8,6 +8,7 @@
 #include "core/splines/bezier.h"
 #include "core/splines/bounds.h"
 #include "core/splines/bspline.h"
+#include "core/splines/growing_memory.h"
 #include "core/splines/measurement.h"
 
 namespace subdivd {
@@ -146,9 +147,17 @@ Result<Found> search(const Scene& scene, const Budget& budget) {
     heap.push_back(std::move(candidate));
     std::push_heap(heap.begin(), heap.end());
   };
-  for (BezierPiece& piece : bezier_pieces(scene.spline)) {
+  auto pieces = bezier_pieces(scene.spline, budget);
+  if (!pieces) return pieces.error();
+  // What the pieces hold moves into the candidates.
+  GrowingMemory memory(
+      budget, sizeof(Candidate),
+      kBytesPerBlock + (Count{scene.spline.degree} + 1) * scene.spline.width * sizeof(double));
+  const auto hold = [&](Count more) { return memory.hold(heap.size() + found.pieces.size() + more); };
+  for (BezierPiece& piece : *pieces) {
     if (steps++ % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
+    if (auto taken = hold(1); !taken) return taken.error();
     consider(std::move(piece));
   }
   for (Count halved = 0; !heap.empty(); ++halved) {
@@ -165,6 +174,7 @@ Result<Found> search(const Scene& scene, const Budget& budget) {
                    {"point"},
                    2 * halved,
                    kMaxClosestPieces};
+    if (auto taken = hold(2); !taken) return taken.error();
     for (BezierPiece& half : halves(candidate.piece, scene.spline.width)) consider(std::move(half));
   }
   return found;

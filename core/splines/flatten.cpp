@@ -6,6 +6,7 @@
 #include "core/splines/bezier.h"
 #include "core/splines/bounds.h"
 #include "core/splines/chord.h"
+#include "core/splines/growing_memory.h"
 #include "core/splines/measurement.h"
 
 namespace subdivd {
@@ -50,7 +51,7 @@ struct Part {
 // coordinates. `waiting`: pieces of the curve still to come, which are corners at least.
 Result<void> add_piece(const LocalSpline& local, BezierPiece first, double tolerance, Count most,
                        Count waiting, const FlattenOptions& options, const Budget& budget,
-                       Polyline& polyline) {
+                       GrowingMemory& memory, Polyline& polyline) {
   const Spline& spline = local.spline;
   const double corner = rounding_of_corners(local);
   std::vector<double> scratch((Count{spline.degree} + 1) * spline.dimension());
@@ -66,6 +67,7 @@ Result<void> add_piece(const LocalSpline& local, BezierPiece first, double toler
       const Count corners = polyline.parameters.size() + 1;
       if (corners + ahead.size() + waiting > most)
         return too_many_corners(corners + ahead.size() + waiting, most);
+      if (auto taken = memory.hold(corners); !taken) return taken;
       polyline.parameters.push_back(part.piece.end);
       polyline.points.insert(polyline.points.end(), scratch.end() - spline.dimension(), scratch.end());
       continue;
@@ -96,7 +98,9 @@ Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, co
   const Index dimension = spline.dimension();
   const Count fitting = budget.max_bytes / ((Count{dimension} + 1) * sizeof(double));
   const Count most = std::min(options.max_points, fitting);
-  std::vector<BezierPiece> pieces = bezier_pieces(local->spline);
+  auto made = bezier_pieces(local->spline, budget);
+  if (!made) return made.error();
+  std::vector<BezierPiece> pieces = *std::move(made);
   if (pieces.size() + 1 > most) return too_many_corners(pieces.size() + 1, most);
 
   // May be infinite, which is fine with comparisons: so large a tolerance is kept by every chord, and any is
@@ -104,6 +108,7 @@ Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, co
   const bool is_point = local->control.low == local->control.high;
   const double tolerance = is_point ? HUGE_VAL : std::ldexp(options.tolerance, -local->exponent);
   Polyline polyline;
+  GrowingMemory memory(budget, (Count{dimension} + 1) * sizeof(double), 0);
   polyline.parameters.push_back(pieces.front().begin);
   polyline.points.resize(dimension);
   project(std::span(pieces.front().points).first(spline.width), spline.rational, polyline.points);
@@ -111,8 +116,8 @@ Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, co
     if (i % kPiecesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;
     const Count waiting = pieces.size() - 1 - i;
-    if (auto added =
-            add_piece(*local, std::move(pieces[i]), tolerance, most, waiting, options, budget, polyline);
+    if (auto added = add_piece(*local, std::move(pieces[i]), tolerance, most, waiting, options, budget,
+                               memory, polyline);
         !added)
       return added.error();
   }

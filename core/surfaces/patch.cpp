@@ -207,7 +207,7 @@ Result<Count> total_points(const ControlPatch& patch, Index level) {
 
 }  // namespace
 
-Result<void> ControlPatch::check([[maybe_unused]] const Budget& budget) const {
+Result<void> ControlPatch::check(const Budget& budget) const {
   if (width < 1 || width > kMaxPatchWidth)
     return Error{ErrorCode::out_of_range,
                  "points have " + std::to_string(width) + " components each; 1 to " +
@@ -232,7 +232,10 @@ Result<void> ControlPatch::check([[maybe_unused]] const Budget& budget) const {
                  {"points"},
                  0,
                  0};
-  for (Count k = 0; k < points.size(); ++k)
+  BudgetPoller poller(budget);
+  for (Count k = 0; k < points.size(); ++k) {
+    if (k % BudgetPoller::kInterval == 0)
+      if (auto stop = poller.spend(BudgetPoller::kInterval)) return *stop;
     if (!std::isfinite(points[k]))
       return Error{ErrorCode::not_finite,
                    "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
@@ -240,6 +243,7 @@ Result<void> ControlPatch::check([[maybe_unused]] const Budget& budget) const {
                    {"points", k},
                    0,
                    0};
+  }
   return {};
 }
 

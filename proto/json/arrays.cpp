@@ -6,27 +6,12 @@
 namespace subdivd::proto::json {
 namespace {
 
-using simdjson::ondemand::array;
-using simdjson::ondemand::json_type;
-
 constexpr std::string_view kWholeNumber = "a whole number from 0 to 4294967294";
 
-bool open_array(Cursor& cursor, Value value, std::string_view right, array& out) {
-  json_type type{};
-  if (value.type().get(type)) return cursor.fail_syntax();
-  if (type != json_type::array) return cursor.fail_type(value, right);
-  return value.get_array().get(out) ? cursor.fail_syntax() : true;
-}
-
-// The type of the next element, or a failure.
-bool type_of(Cursor& cursor, Value value, json_type& type) {
-  return value.type().get(type) ? cursor.fail_syntax() : true;
-}
-
 // What is wrong with a number that is no index. `below` leads to it.
-bool fail_index(Cursor& cursor, Value value, Path below) {
+bool fail_index(Cursor& cursor, Path below) {
   double number = 0;
-  if (!get_number(value, number)) return cursor.fail_number(value, kWholeNumber, std::move(below));
+  if (!cursor.read_number(number, kWholeNumber, below)) return false;
   const bool whole = number == std::floor(number);
   return cursor.fail(whole ? ErrorCode::out_of_range : ErrorCode::wrong_type,
                      std::string("this is ") +
@@ -35,41 +20,28 @@ bool fail_index(Cursor& cursor, Value value, Path below) {
                      std::move(below));
 }
 
-// The hot path of indices; false: let fail_index explain.
-bool get_index(Value& value, Index& out) {
-  std::uint64_t number = 0;
-  if (!value.get_uint64().get(number)) {
-    out = static_cast<Index>(number);
-    return number < kNoIndex;
-  }
-  double real = 0;  // 3.0 and 1e2 are whole, too
-  if (!get_number(value, real) || !(real >= 0) || real >= kNoIndex || real != std::floor(real)) return false;
-  out = static_cast<Index>(real);
-  return true;
-}
-
 std::string of_form(std::string_view noun, bool nested) {
   return nested ? std::string("an array, as the ") + std::string(noun) + "s before it are"
                 : "a number, as what stands before it";
 }
 
-bool read_tuple(Cursor& cursor, Value element, std::size_t i, std::string_view noun, Tuples& out) {
-  array tuple;
-  if (element.get_array().get(tuple)) return cursor.fail_type(element, of_form(noun, true), {i});
+bool read_tuple(Cursor& cursor, std::uint64_t i, std::string_view noun, Tuples& out) {
+  if (cursor.type() != Type::array) return cursor.fail_type(of_form(noun, true), {i});
   const std::size_t begin = out.values.size();
-  for (auto scalar : tuple) {
-    Value value;
-    double number = 0;
-    if (scalar.get(value)) return cursor.fail_syntax();
-    if (!get_number(value, number))
-      return cursor.fail_number(value, "a number", {i, out.values.size() - begin});
-    out.values.push_back(number);
-    // A first tuple without end would make every further one an error, after all the memory is used.
-    if (out.values.size() - begin > kMaxCurveWidth)
-      return cursor.fail(ErrorCode::wrong_length,
-                         std::string("this ") + std::string(noun) + " has more than " +
-                             std::to_string(kMaxCurveWidth) + " numbers",
-                         {i});
+  {
+    const Cursor::Step step(cursor, i);
+    if (!cursor.open_array("")) return false;
+    for (Cursor::Elements scalars(cursor); scalars.next();) {
+      double number = 0;
+      if (!cursor.try_number(number)) return cursor.read_number(number, "a number", {scalars.index()});
+      out.values.push_back(number);
+      // A first tuple without end would make every further one an error, after all the memory is used.
+      if (out.values.size() - begin > kMaxCurveWidth)
+        return cursor.fail(ErrorCode::wrong_length, std::string("this ") + std::string(noun) +
+                                                        " has more than " + std::to_string(kMaxCurveWidth) +
+                                                        " numbers");
+    }
+    if (cursor.failed()) return false;
   }
   const std::size_t length = out.values.size() - begin;
   if (out.width == 0 && length > 0) out.width = static_cast<Index>(length);
@@ -81,34 +53,38 @@ bool read_tuple(Cursor& cursor, Value element, std::size_t i, std::string_view n
                      {i});
 }
 
+// Enters the array and makes room for as many scalars as there can be in it.
+template <class Scalar>
+bool open_scalars(Cursor& cursor, std::string_view right, std::vector<Scalar>& out) {
+  if (!cursor.open_array(right)) return false;
+  out.reserve(cursor.look_ahead().values);
+  return !cursor.failed();
+}
+
 }  // namespace
 
-bool read_tuples(Cursor& cursor, Value value, Index width, Index widest, std::string_view noun, Tuples& out) {
+bool read_tuples(Cursor& cursor, Index width, Index widest, std::string_view noun, Tuples& out) {
   const std::string right =
       std::string("an array of ") + std::string(noun) + "s, nested [[…], …] or flat [x, y, …]";
-  array elements;
-  if (!open_array(cursor, value, right, elements)) return false;
+  if (!open_scalars(cursor, right, out.values)) return false;
   out.width = width;
-  std::size_t i = 0;
-  for (auto element : elements) {
-    Value one;
-    if (element.get(one)) return cursor.fail_syntax();
+  for (Cursor::Elements elements(cursor); elements.next();) {
+    const std::uint64_t i = elements.index();
     if (i == 0) {
-      json_type type{};
-      if (!type_of(cursor, one, type)) return false;
-      if (type != json_type::array && type != json_type::number)
-        return cursor.fail_type(one, "a number or an array of numbers", {i});
-      out.form = type == json_type::array ? ArrayForm::nested : ArrayForm::flat;
+      const Type type = cursor.type();
+      if (type != Type::array && type != Type::number)
+        return cursor.fail_type("a number or an array of numbers", {i});
+      out.form = type == Type::array ? ArrayForm::nested : ArrayForm::flat;
     }
     if (out.form == ArrayForm::nested) {
-      if (!read_tuple(cursor, one, i, noun, out)) return false;
+      if (!read_tuple(cursor, i, noun, out)) return false;
     } else {
       double number = 0;
-      if (!get_number(one, number)) return cursor.fail_number(one, of_form(noun, false), {i});
+      if (!cursor.try_number(number)) return cursor.read_number(number, of_form(noun, false), {i});
       out.values.push_back(number);
     }
-    ++i;
   }
+  if (cursor.failed()) return false;
   if (out.form == ArrayForm::flat) {
     out.width = 0;
     if (width > 0 && out.values.size() % width != 0)
@@ -123,102 +99,81 @@ bool read_tuples(Cursor& cursor, Value value, Index width, Index widest, std::st
   return true;
 }
 
-bool read_indices(Cursor& cursor, Value value, std::vector<Index>& out) {
-  array elements;
-  if (!open_array(cursor, value, "an array of whole numbers", elements)) return false;
-  std::size_t i = 0;
-  for (auto element : elements) {
-    Value one;
+bool read_indices(Cursor& cursor, std::vector<Index>& out) {
+  if (!open_scalars(cursor, "an array of whole numbers", out)) return false;
+  for (Cursor::Elements elements(cursor); elements.next();) {
     Index index = 0;
-    if (element.get(one)) return cursor.fail_syntax();
-    if (!get_index(one, index)) return fail_index(cursor, one, {i});
+    if (!cursor.try_index(index)) return fail_index(cursor, {elements.index()});
     out.push_back(index);
-    ++i;
   }
-  return true;
+  return !cursor.failed();
 }
 
-bool read_reals(Cursor& cursor, Value value, std::vector<double>& out) {
-  array elements;
-  if (!open_array(cursor, value, "an array of numbers", elements)) return false;
-  std::size_t i = 0;
-  for (auto element : elements) {
-    Value one;
+bool read_reals(Cursor& cursor, std::vector<double>& out) {
+  if (!open_scalars(cursor, "an array of numbers", out)) return false;
+  for (Cursor::Elements elements(cursor); elements.next();) {
     double number = 0;
-    if (element.get(one)) return cursor.fail_syntax();
-    if (!get_number(one, number)) return cursor.fail_number(one, "a number", {i});
+    if (!cursor.try_number(number)) return cursor.read_number(number, "a number", {elements.index()});
     out.push_back(number);
-    ++i;
   }
-  return true;
+  return !cursor.failed();
 }
 
-bool read_lists(Cursor& cursor, Value value, std::string_view noun, Lists& out) {
-  array elements;
-  if (!open_array(cursor, value, "an array of whole numbers, or of arrays of them", elements)) return false;
-  std::size_t i = 0;
-  for (auto element : elements) {
-    Value one;
-    json_type type{};
-    if (element.get(one)) return cursor.fail_syntax();
+bool read_lists(Cursor& cursor, std::string_view noun, Lists& out) {
+  if (!cursor.open_array("an array of whole numbers, or of arrays of them")) return false;
+  const Cursor::Ahead ahead = cursor.look_ahead();
+  out.indices.reserve(ahead.values);
+  for (Cursor::Elements elements(cursor); elements.next();) {
+    const std::uint64_t i = elements.index();
     if (i == 0) {
-      if (!type_of(cursor, one, type)) return false;
-      out.form = type == json_type::array ? ArrayForm::nested : ArrayForm::flat;
+      out.form = cursor.type() == Type::array ? ArrayForm::nested : ArrayForm::flat;
+      if (out.form == ArrayForm::nested) out.counts.reserve(ahead.brackets);
     }
     Index index = 0;
     if (out.form == ArrayForm::flat) {
-      if (!get_index(one, index)) return fail_index(cursor, one, {i});
+      if (!cursor.try_index(index)) return fail_index(cursor, {i});
       out.indices.push_back(index);
-    } else {
-      array list;
-      if (one.get_array().get(list)) return cursor.fail_type(one, of_form(noun, true), {i});
-      std::size_t length = 0;
-      for (auto entry : list) {
-        Value number;
-        if (entry.get(number)) return cursor.fail_syntax();
-        if (!get_index(number, index)) return fail_index(cursor, number, {i, length});
-        out.indices.push_back(index);
-        ++length;
-      }
-      if (length >= kNoIndex) return cursor.fail(ErrorCode::too_large, "this list is too long", {i});
-      out.counts.push_back(static_cast<Index>(length));
+      continue;
     }
-    ++i;
+    if (cursor.type() != Type::array) return cursor.fail_type(of_form(noun, true), {i});
+    const Cursor::Step step(cursor, i);
+    if (!cursor.open_array("")) return false;
+    std::size_t length = 0;
+    for (Cursor::Elements list(cursor); list.next(); ++length) {
+      if (!cursor.try_index(index)) return fail_index(cursor, {list.index()});
+      out.indices.push_back(index);
+    }
+    if (cursor.failed()) return false;
+    if (length >= kNoIndex) return cursor.fail(ErrorCode::too_large, "this list is too long");
+    out.counts.push_back(static_cast<Index>(length));
   }
-  return true;
+  return !cursor.failed();
 }
 
-bool read_sharpnesses(Cursor& cursor, Value value, std::vector<float>& out) {
+bool read_sharpnesses(Cursor& cursor, std::vector<float>& out) {
   constexpr std::string_view right = "a number or \"infinite\"";
-  array elements;
-  if (!open_array(cursor, value, "an array of numbers or \"infinite\"", elements)) return false;
-  std::size_t i = 0;
-  for (auto element : elements) {
-    Value one;
-    json_type type{};
-    if (element.get(one)) return cursor.fail_syntax();
-    if (!type_of(cursor, one, type)) return false;
-    if (type == json_type::string) {
+  if (!open_scalars(cursor, "an array of numbers or \"infinite\"", out)) return false;
+  for (Cursor::Elements elements(cursor); elements.next();) {
+    if (cursor.type() == Type::string) {
+      const Cursor::Step step(cursor, elements.index());
       std::string_view word;
-      if (one.get_string().get(word)) return cursor.fail_syntax();
+      if (!cursor.read_string(word)) return false;
       if (word != "infinite")
         return cursor.fail(ErrorCode::bad_enum,
-                           std::string("this is ") + in_quotes(word) + "; it must be " + std::string(right),
-                           {i});
+                           std::string("this is ") + in_quotes(word) + "; it must be " + std::string(right));
       out.push_back(kInfiniteSharpness);
     } else {
       double number = 0;
-      if (!get_number(one, number)) return cursor.fail_number(one, right, {i});
+      if (!cursor.try_number(number)) return cursor.read_number(number, right, {elements.index()});
       // USD writes 1e38 for infinite; what no float can hold is no less infinite.
       out.push_back(static_cast<float>(std::clamp(number, -1e38, 1e38)));
     }
-    ++i;
   }
-  return true;
+  return !cursor.failed();
 }
 
-bool read_whole_number(Cursor& cursor, Value value, Index& out) {
-  return get_index(value, out) ? true : fail_index(cursor, value, {});
+bool read_whole_number(Cursor& cursor, Index& out) {
+  return cursor.try_index(out) || (!cursor.failed() && fail_index(cursor, {}));
 }
 
 }  // namespace subdivd::proto::json

@@ -2,52 +2,58 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
+#include <cmath>
 #include <system_error>
+
+#include "core/base/index.h"
+#include "proto/client_text.h"
 
 namespace subdivd::proto::json {
 namespace {
 
-using simdjson::ondemand::json_type;
+constexpr std::ptrdiff_t kBytesPerPoll = 1 << 18;  // some milliseconds of reading
 
-std::string_view name_of_type(json_type type) {
+std::string_view name_of_type(Type type) {
   switch (type) {
-    case json_type::array:
+    case Type::array:
       return "an array";
-    case json_type::object:
+    case Type::object:
       return "an object";
-    case json_type::number:
+    case Type::number:
       return "a number";
-    case json_type::string:
+    case Type::string:
       return "a string";
-    case json_type::boolean:
+    case Type::boolean:
       return "a boolean";
-    case json_type::null:
+    case Type::null:
       return "null";
+    case Type::none:
+      break;
   }
   return "something else";
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Does the token begin with a number as JSON writes it, ended by white space, a comma, a bracket or its end?
-bool is_json_number(std::string_view token) {
-  std::size_t i = 0;
+// The end of the number that begins at p, as JSON writes numbers; null: there is none.
+const char* end_of_number(const char* p, const char* end) {
   const auto digits = [&] {
-    const std::size_t begin = i;
-    while (i < token.size() && is_digit(token[i])) ++i;
-    return i > begin;
+    const char* const first = p;
+    while (p < end && is_digit(*p)) ++p;
+    return p > first;
   };
-  if (i < token.size() && token[i] == '-') ++i;
-  const bool leading_zero = i + 1 < token.size() && token[i] == '0' && is_digit(token[i + 1]);
-  if (leading_zero || !digits()) return false;
-  if (i < token.size() && token[i] == '.' && (++i, !digits())) return false;
-  if (i < token.size() && (token[i] == 'e' || token[i] == 'E')) {
-    ++i;
-    if (i < token.size() && (token[i] == '+' || token[i] == '-')) ++i;
-    if (!digits()) return false;
+  if (p < end && *p == '-') ++p;
+  if (p < end && *p == '0')
+    ++p;
+  else if (!digits())
+    return nullptr;
+  if (p < end && *p == '.' && (++p, !digits())) return nullptr;
+  if (p < end && (*p == 'e' || *p == 'E')) {
+    ++p;
+    if (p < end && (*p == '+' || *p == '-')) ++p;
+    if (!digits()) return nullptr;
   }
-  return i == token.size() || std::string_view(" \t\r\n,]}").find(token[i]) != std::string_view::npos;
+  return p;
 }
 
 // Of a number that no double can hold: is it too large, not too small? Decided by where its first digit
@@ -57,7 +63,7 @@ bool is_too_large(std::string_view token) {
   const auto first = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
   const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
   std::int64_t exponent = 0;
-  if (mantissa.size() < token.size() && (token[mantissa.size()] | 0x20) == 'e') {
+  if (mantissa.size() < token.size()) {
     std::string_view digits = token.substr(mantissa.size() + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
     const auto failure = std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec;
@@ -68,9 +74,8 @@ bool is_too_large(std::string_view token) {
   return before_point > -exponent;
 }
 
-// The number at the beginning of a token that holds one, correctly rounded.
-bool read_number(std::string_view token, double& out) {
-  if (!is_json_number(token)) return false;
+// The number that is the whole token, correctly rounded; false: beyond a double.
+bool convert(std::string_view token, double& out) {
   double number = 0;
   const auto failure = std::from_chars(token.data(), token.data() + token.size(), number).ec;
   if (failure == std::errc::result_out_of_range) {
@@ -81,17 +86,67 @@ bool read_number(std::string_view token, double& out) {
   return true;
 }
 
-}  // namespace
-
-bool get_number(Value& value, double& out) {
-  constexpr std::size_t kMostTrusted = 19;  // characters, so digits too
-  const std::string_view token = value.raw_json_token();
-  if (token.size() <= kMostTrusted) return !value.get_double().get(out);
-  return read_number(token, out);
+// Most numbers: up to 2^53 in digits, and no more than 22 of them behind the point. Then both the digits and
+// the power of ten are doubles, and one division rounds correctly.   [Clinger90]
+bool convert_short(const char* p, const char* end, double& out) {
+  static constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  constexpr std::ptrdiff_t kMostDigits = 19;  // fit into 64 bits
+  const bool negative = *p == '-';
+  if (negative) ++p;
+  if (end - p > kMostDigits) return false;
+  std::uint64_t digits = 0;
+  std::size_t behind = 0;
+  bool fraction = false;
+  for (; p < end; ++p) {
+    if (*p == '.') {
+      fraction = true;
+      continue;
+    }
+    if (!is_digit(*p)) return false;  // an exponent
+    digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+    behind += fraction ? 1 : 0;
+  }
+  if (digits > (std::uint64_t{1} << 53)) return false;
+  const double value = static_cast<double>(digits) / kTens[behind];
+  out = negative ? -value : value;
+  return true;
 }
 
+bool continues(const char* p, const char* end, int count) {
+  for (int k = 0; k < count; ++k)
+    if (p + k >= end || (static_cast<unsigned char>(p[k]) & 0xC0) != 0x80) return false;
+  return true;
+}
+
+void append_utf8(std::string& text, std::uint32_t code) {
+  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) return put(code);
+  if (code < 0x800) {
+    put(0xC0 | code >> 6);
+  } else {
+    if (code < 0x10000) {
+      put(0xE0 | code >> 12);
+    } else {
+      put(0xF0 | code >> 18);
+      put(0x80 | (code >> 12 & 0x3F));
+    }
+    put(0x80 | (code >> 6 & 0x3F));
+  }
+  put(0x80 | (code & 0x3F));
+}
+
+}  // namespace
+
+Cursor::Cursor(std::string_view text, const Budget& budget)
+    : begin_(text.data()), end_(text.data() + text.size()), at_(begin_), stop_(begin_), budget_(budget) {
+  poll();
+}
+
+// --- Places and failures ----------------------------------------------------------------------------------
+
 Cursor::Step::Step(Cursor& cursor, std::string_view member) : cursor_(cursor) {
-  cursor_.path_.emplace_back(std::in_place_type<std::string>, member);
+  cursor_.path_.emplace_back(client_text(member));
 }
 
 Cursor::Step::Step(Cursor& cursor, std::uint64_t element) : cursor_(cursor) {
@@ -111,48 +166,363 @@ bool Cursor::fail_as(Error error) {
   return false;
 }
 
-bool Cursor::fail_syntax() {
-  if (!error_) malformed_ = true;
-  return fail(ErrorCode::malformed, "the body is not valid JSON");
+bool Cursor::fail_syntax(Path below) {
+  if (error_) return false;
+  if (at_ >= end_)
+    return fail(ErrorCode::malformed, "the body ends in the middle of its JSON; is it cut short?",
+                std::move(below));
+  // A byte order mark may stand before begin_, but is no byte of the text.
+  const std::string_view before(begin_, static_cast<std::size_t>(at_ - begin_));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t newline = before.rfind('\n');
+  const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
+  return fail(ErrorCode::malformed,
+              "the body stops being valid JSON at line " + std::to_string(line) + ", column " +
+                  std::to_string(column) + " (byte " + std::to_string(before.size()) + ")",
+              std::move(below));
 }
 
-bool Cursor::fail_type(Value value, std::string_view right, Path below) {
-  json_type type{};
-  if (value.type().get(type)) return fail_syntax();
+bool Cursor::fail_type(std::string_view right, Path below) {
+  const Type found = type();
+  if (found == Type::none) return fail_syntax(std::move(below));
   return fail(
       ErrorCode::wrong_type,
-      std::string("this is ") + std::string(name_of_type(type)) + "; it must be " + std::string(right),
+      std::string("this is ") + std::string(name_of_type(found)) + "; it must be " + std::string(right),
       std::move(below));
 }
 
-bool Cursor::fail_number(Value value, std::string_view right, Path below) {
-  json_type type{};
-  if (value.type().get(type)) return fail_syntax();
-  if (type != json_type::number) return fail_type(value, right, std::move(below));
-  const std::string_view token = value.raw_json_token();
-  if (!is_json_number(token)) return fail_syntax();
+bool Cursor::fail_unknown(std::string_view name, std::span<const std::string_view> valid) {
+  return fail(ErrorCode::unknown_field,
+              std::string("there is no member ") + in_quotes(name) + " here" + hint(name, valid),
+              {client_text(name)});
+}
+
+bool Cursor::fail_twice(std::string_view name) {
+  return fail(ErrorCode::duplicate_field,
+              std::string("the member ") + in_quotes(name) + " is given twice; give it once",
+              {client_text(name)});
+}
+
+bool Cursor::poll() {
+  stop_ = at_ + std::min(kBytesPerPoll, end_ - at_);
+  if (error_) return false;
+  auto stopped = budget_.poll();
+  return stopped ? fail_as(*std::move(stopped)) : true;
+}
+
+// --- Between values ---------------------------------------------------------------------------------------
+
+void Cursor::skip_more_space() {
+  while (at_ < end_) {
+    while (at_ < stop_ && is_space(*at_)) ++at_;
+    if (at_ < stop_ || at_ == end_ || !poll()) return;
+  }
+}
+
+Type Cursor::type() {
+  skip_space();
+  if (at_ >= end_) return Type::none;
+  switch (*at_) {
+    case '[':
+      return Type::array;
+    case '{':
+      return Type::object;
+    case '"':
+      return Type::string;
+    case 't':
+    case 'f':
+      return Type::boolean;
+    case 'n':
+      return Type::null;
+    case '-':
+      return Type::number;
+    default:
+      return is_digit(*at_) ? Type::number : Type::none;
+  }
+}
+
+bool Cursor::at_end() {
+  skip_space();
+  return !failed() && at_ == end_;
+}
+
+bool Cursor::open_array(std::string_view right, Path below) {
+  if (type() != Type::array) return fail_type(right, std::move(below));
+  ++at_;
+  return !failed();
+}
+
+bool Cursor::open_object(std::string_view right) {
+  if (type() != Type::object) return fail_type(right);
+  ++at_;
+  return !failed();
+}
+
+bool Cursor::Elements::next() {
+  Cursor& c = cursor_;
+  if (c.failed()) return false;
+  c.skip_space();
+  if (c.at(']')) {
+    ++c.at_;
+    return false;
+  }
+  if (count_ > 0) {
+    if (!c.at(',')) return c.fail_syntax({count_});
+    ++c.at_;
+    c.skip_space();
+    if (c.at(']')) return c.fail_syntax({count_});
+  }
+  ++count_;
+  return !c.failed();
+}
+
+bool Cursor::Members::next(std::string_view& name) {
+  Cursor& c = cursor_;
+  if (c.failed()) return false;
+  c.skip_space();
+  if (c.at('}')) {
+    ++c.at_;
+    return false;
+  }
+  if (!std::exchange(first_, false)) {
+    if (!c.at(',')) return c.fail_syntax();
+    ++c.at_;
+    c.skip_space();
+  }
+  if (!c.at('"')) return c.fail_syntax();
+  if (!c.read_string(name)) return false;
+  c.skip_space();
+  if (!c.at(':')) return c.fail_syntax({client_text(name)});
+  ++c.at_;
+  return !c.failed();
+}
+
+// What this finds malformed, reading will find, too.
+Cursor::Ahead Cursor::look_ahead() {
+  Ahead ahead{.values = 1, .brackets = 0};
+  const char* p = at_;
+  std::size_t depth = 1;
+  bool quoted = false;
+  while (p < end_) {
+    const char* const stop = p + std::min(kBytesPerPoll, end_ - p);
+    for (; p < stop; ++p) {
+      const char c = *p;
+      if (quoted) {
+        if (c == '\\')
+          ++p;  // over the end at most by one, which ends both loops
+        else
+          quoted = c != '"';
+        continue;
+      }
+      switch (c) {
+        case ',':
+          ++ahead.values;
+          break;
+        case '"':
+          quoted = true;
+          break;
+        case '[':
+        case '{':
+          ++ahead.brackets;
+          ++depth;
+          break;
+        case ']':
+        case '}':
+          if (--depth == 0) return ahead;
+          break;
+        default:
+          break;
+      }
+    }
+    if (auto stopped = budget_.poll()) {
+      fail_as(*std::move(stopped));
+      return {};
+    }
+  }
+  return ahead;
+}
+
+// --- Values -----------------------------------------------------------------------------------------------
+
+bool Cursor::try_number(double& out) {
+  skip_space();
+  const char* const end = end_of_number(at_, end_);
+  if (end == nullptr) return false;
+  if (!convert_short(at_, end, out) &&
+      !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out))
+    return false;
+  at_ = end;
+  return at_ < stop_ || poll();
+}
+
+bool Cursor::read_number(double& out, std::string_view right, Path below) {
+  if (failed()) return false;
+  if (try_number(out)) return true;
+  if (failed()) return false;
+  if (type() != Type::number) return fail_type(right, std::move(below));
+  const char* const end = end_of_number(at_, end_);
+  if (end == nullptr) return fail_syntax(std::move(below));
   return fail(ErrorCode::not_finite,
-              in_quotes(token.substr(0, token.find_first_of(" \t\r\n,]}"))) +
+              in_quotes(std::string_view(at_, static_cast<std::size_t>(end - at_))) +
                   " is beyond what a double can hold; it must be " + std::string(right),
               std::move(below));
 }
 
-bool Cursor::read_string(Value value, std::string& out) {
+bool Cursor::try_index(std::uint32_t& out) {
+  skip_space();
+  const char* p = at_;
+  std::uint64_t value = 0;
+  while (p < end_ && is_digit(*p) && value < kNoIndex)
+    value = 10 * value + static_cast<std::uint64_t>(*p++ - '0');
+  const bool ends = p == end_ || !(is_digit(*p) || *p == '.' || *p == 'e' || *p == 'E');
+  const bool leading_zero = *at_ == '0' && p - at_ > 1;
+  if (p > at_ && ends && !leading_zero) {
+    if (value >= kNoIndex) return false;
+    out = static_cast<std::uint32_t>(value);
+    at_ = p;
+    return at_ < stop_ || poll();
+  }
+  const char* const before = at_;
+  double real = 0;
+  if (!try_number(real)) return false;
+  if (real >= 0 && real < kNoIndex && real == std::floor(real)) {
+    out = static_cast<std::uint32_t>(real);
+    return true;
+  }
+  at_ = before;
+  return false;
+}
+
+bool Cursor::read_literal(std::string_view literal) {
+  const auto left = static_cast<std::size_t>(end_ - at_);
+  const std::string_view found(at_, std::min(left, literal.size()));
+  if (found != literal) {
+    // Where it differs is where the text stops being JSON.
+    at_ += std::mismatch(found.begin(), found.end(), literal.begin()).first - found.begin();
+    return fail_syntax();
+  }
+  at_ += literal.size();
+  return !failed();
+}
+
+bool Cursor::read_bool(bool& out, std::string_view right) {
+  if (type() != Type::boolean) return fail_type(right);
+  out = *at_ == 't';
+  return read_literal(out ? "true" : "false");
+}
+
+bool Cursor::read_null() {
+  if (type() != Type::null) return fail_type("null");
+  return read_literal("null");
+}
+
+// The end of the character of several bytes at p; null: it is not UTF-8.   [RFC 3629]
+const char* Cursor::check_character(const char* p) const {
+  const auto first = static_cast<unsigned char>(*p);
+  const auto second = p + 1 < end_ ? static_cast<unsigned char>(p[1]) : 0u;
+  if (first >= 0xC2 && first < 0xE0) return continues(p + 1, end_, 1) ? p + 2 : nullptr;
+  if (first >= 0xE0 && first < 0xF0) {
+    // Neither longer than needed nor half of a pair.
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0)) return nullptr;
+    return continues(p + 1, end_, 2) ? p + 3 : nullptr;
+  }
+  if (first >= 0xF0 && first < 0xF5) {
+    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90)) return nullptr;
+    return continues(p + 1, end_, 3) ? p + 4 : nullptr;
+  }
+  return nullptr;
+}
+
+bool Cursor::read_string(std::string_view& out) {
+  if (type() != Type::string) return fail_type("a string");
+  const char* const begin = ++at_;
+  while (at_ < end_) {
+    const auto c = static_cast<unsigned char>(*at_);
+    if (c == '"') {
+      out = {begin, static_cast<std::size_t>(at_ - begin)};
+      ++at_;
+      return at_ < stop_ || poll();
+    }
+    if (c == '\\') return read_long_string(out, begin);
+    if (c < 0x20) return fail_syntax();
+    if (c < 0x80) {
+      ++at_;
+    } else {
+      const char* const next = check_character(at_);
+      if (next == nullptr) return fail_syntax();
+      at_ = next;
+    }
+    if (at_ >= stop_ && !poll()) return false;
+  }
+  return fail_syntax();
+}
+
+// A string with escapes, which begins at `begin`; the cursor stands on the first of them.
+bool Cursor::read_long_string(std::string_view& out, const char* begin) {
+  unescaped_.assign(begin, at_);
+  while (at_ < end_) {
+    const auto c = static_cast<unsigned char>(*at_);
+    if (c == '"') {
+      ++at_;
+      out = unescaped_;
+      return at_ < stop_ || poll();
+    }
+    if (c < 0x20) return fail_syntax();
+    if (c == '\\') {
+      if (!read_escape()) return false;
+    } else {
+      const char* const next = c < 0x80 ? at_ + 1 : check_character(at_);
+      if (next == nullptr) return fail_syntax();
+      unescaped_.append(at_, next);
+      at_ = next;
+    }
+    if (at_ >= stop_ && !poll()) return false;
+  }
+  return fail_syntax();
+}
+
+bool Cursor::read_escape() {
+  const auto unit = [&](std::uint32_t& code) {  // \uXXXX
+    if (end_ - at_ < 6 || at_[0] != '\\' || at_[1] != 'u') return false;
+    const auto [last, failure] = std::from_chars(at_ + 2, at_ + 6, code, 16);
+    if (failure != std::errc() || last != at_ + 6) return false;
+    at_ += 6;
+    return true;
+  };
+  static constexpr std::string_view kLetters = "\"\\/bfnrt", kMeanings = "\"\\/\b\f\n\r\t";
+  if (at_ + 1 == end_) {
+    ++at_;
+    return fail_syntax();
+  }
+  if (at_[1] != 'u') {
+    const std::size_t letter = kLetters.find(at_[1]);
+    if (letter == std::string_view::npos) return fail_syntax();
+    unescaped_ += kMeanings[letter];
+    at_ += 2;
+    return true;
+  }
+  std::uint32_t code = 0, second = 0;
+  if (!unit(code)) return fail_syntax();
+  if (code >= 0xDC00 && code < 0xE000) return fail_syntax();  // half of a pair
+  if (code >= 0xD800 && code < 0xDC00) {
+    if (!unit(second) || second < 0xDC00 || second >= 0xE000) return fail_syntax();
+    code = 0x10000 + ((code - 0xD800) << 10) + (second - 0xDC00);
+  }
+  append_utf8(unescaped_, code);
+  return true;
+}
+
+bool Cursor::read_string(std::string& out) {
   std::string_view text;
-  json_type type{};
-  if (value.type().get(type)) return fail_syntax();
-  if (type != json_type::string) return fail_type(value, "a string");
-  if (value.get_string().get(text)) return fail_syntax();
+  if (!read_string(text)) return false;
   out = text;
   return true;
 }
 
-bool Cursor::read_word(Value value, std::span<const std::string_view> valid, std::size_t& out) {
-  std::string text;
-  json_type type{};
-  if (value.type().get(type)) return fail_syntax();
-  if (type != json_type::string) return fail_type(value, std::string("one of ") + either_of(valid));
-  if (!read_string(value, text)) return false;
+bool Cursor::read_word(std::span<const std::string_view> valid, std::size_t& out) {
+  if (type() != Type::string) return fail_type(std::string("one of ") + either_of(valid));
+  std::string_view text;
+  if (!read_string(text)) return false;
   const auto found = std::find(valid.begin(), valid.end(), text);
   if (found == valid.end())
     return fail(ErrorCode::bad_enum, std::string("this is ") + in_quotes(text) + hint(text, valid));
@@ -160,63 +530,52 @@ bool Cursor::read_word(Value value, std::span<const std::string_view> valid, std
   return true;
 }
 
-bool Cursor::skip(Value value, std::size_t depth_left) {
-  json_type type{};
-  if (value.type().get(type)) return fail_syntax();
+bool Cursor::skip(std::size_t depth_left) {
+  if (failed()) return false;
   // A body of nothing but "[" would otherwise use up our stack.
   if (depth_left == 0) return fail(ErrorCode::too_large, "arrays and objects are nested too deeply");
-  switch (type) {
-    case json_type::array: {
-      simdjson::ondemand::array array;
-      if (value.get_array().get(array)) return fail_syntax();
-      for (auto element : array) {
-        Value inner;
-        if (element.get(inner)) return fail_syntax();
-        if (!skip(inner, depth_left - 1)) return false;
-      }
-      return true;
+  // The path to what is wrong is put together on the way out.
+  const auto blame = [&](PathStep step) {
+    const ErrorCode code = error_->code;
+    if (code == ErrorCode::malformed || code == ErrorCode::not_finite)
+      error_->where.insert(error_->where.begin() + static_cast<std::ptrdiff_t>(path_.size()),
+                           std::move(step));
+    return false;
+  };
+  switch (type()) {
+    case Type::array: {
+      ++at_;
+      for (Elements all(*this); all.next();)
+        if (!skip(depth_left - 1)) return blame(all.index());
+      return !failed();
     }
-    case json_type::object: {
-      simdjson::ondemand::object object;
-      if (value.get_object().get(object)) return fail_syntax();
-      for (auto field : object) {
-        std::string_view name;
-        Value inner;
-        if (field.unescaped_key().get(name) || field.value().get(inner)) return fail_syntax();
-        if (!skip(inner, depth_left - 1)) return false;
+    case Type::object: {
+      ++at_;
+      std::string_view name;
+      for (Members all(*this); all.next(name);) {
+        std::string kept = client_text(name);
+        if (!skip(depth_left - 1)) return blame(std::move(kept));
       }
-      return true;
+      return !failed();
     }
-    case json_type::number: {
+    case Type::number: {
       double number = 0;
-      return get_number(value, number) ? true : fail_number(value, "a finite number");
+      return read_number(number, "a finite number");
     }
-    case json_type::string: {
+    case Type::string: {
       std::string_view text;
-      return value.get_string().get(text) ? fail_syntax() : true;
+      return read_string(text);
     }
-    case json_type::boolean: {
+    case Type::boolean: {
       bool truth = false;
-      return value.get_bool().get(truth) ? fail_syntax() : true;
+      return read_bool(truth, "true or false");
     }
-    case json_type::null: {
-      bool null = false;
-      return value.is_null().get(null) || !null ? fail_syntax() : true;
-    }
+    case Type::null:
+      return read_null();
+    case Type::none:
+      break;
   }
   return fail_syntax();
-}
-
-bool Cursor::fail_unknown(std::string_view name, std::span<const std::string_view> valid) {
-  return fail(ErrorCode::unknown_field,
-              std::string("there is no member ") + in_quotes(name) + " here" + hint(name, valid),
-              {std::string(name)});
-}
-
-bool Cursor::fail_twice(std::string_view name) {
-  return fail(ErrorCode::duplicate_field,
-              std::string("the member ") + in_quotes(name) + " is given twice; give it once",
-              {std::string(name)});
 }
 
 }  // namespace subdivd::proto::json

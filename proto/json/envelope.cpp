@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -13,16 +12,6 @@ namespace subdivd::proto::json {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// A microsecond is as fine as a clock tells the truth.
-double rounded(double milliseconds) { return std::round(milliseconds * 1000) / 1000; }
-
-Json milliseconds(const RefineRequest& request, const Timings& timings, bool refined) {
-  Json json = {{"read", rounded(timings.read)}};
-  if (refined) json["refine"] = rounded(timings.refine);
-  if (!refined || request.options.verify) json["verify"] = rounded(timings.verify);
-  return json;
-}
 
 // Edges of the control mesh. The number of refined points tells it without finding every edge again, which
 // would take longer than writing the answer; 0 points: there is no refined mesh.
@@ -94,34 +83,68 @@ Json surface_statistics(const ControlPatch& surface, Index level) {
   return json;
 }
 
-// `refined_points`: of every mesh; empty when nothing was refined.
-Json statistics(const RefineRequest& request, const std::vector<Count>& refined_points) {
-  Json json;
-  const Index level = request.options.level;
-  for (std::size_t i = 0; i < request.meshes.size(); ++i)
-    json["meshes"].push_back(
-        mesh_statistics(request.meshes[i], level, i < refined_points.size() ? refined_points[i] : 0));
-  for (const ControlCurves& curves : request.curves)
-    json["curves"].push_back(curve_statistics(curves, level));
-  for (const ControlPatch& surface : request.surfaces)
-    json["surfaces"].push_back(surface_statistics(surface, level));
-  return json;
-}
+std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-template <class Real>
-void add_outputs(Json& json, const RefineAnswer<Real>& answer) {
-  for (std::size_t i = 0; i < answer.meshes.size() && i < json["meshes"].size(); ++i)
-    json["meshes"][i]["output"] = {{"points", answer.meshes[i].points.size() / 3},
-                                   {"triangles", answer.meshes[i].triangle_count}};
-  for (std::size_t i = 0; i < answer.curves.size() && i < json["curves"].size(); ++i)
-    json["curves"][i]["output"] = {{"points", answer.curves[i].points.size() / answer.curves[i].width}};
-  for (std::size_t i = 0; i < answer.surfaces.size() && i < json["surfaces"].size(); ++i) {
-    const RefinedPatch<Real>& surface = answer.surfaces[i];
-    json["surfaces"][i]["output"] = {{"points", surface.points.size() / surface.width},
-                                     {surface.corners_per_face == 4 ? "quads" : "triangles",
-                                      surface.faces.size() / std::max<Index>(surface.corners_per_face, 1)}};
+// Part by part: as one tree the numbers of many meshes would take ten times their text.
+class StatisticsWriter {
+ public:
+  StatisticsWriter(const RefineRequest& request, const Budget& budget) : request_(request), budget_(budget) {}
+
+  // `answer` null: nothing was refined.
+  template <class Real>
+  Result<std::string> write(const RefineAnswer<Real>* answer) {
+    const Index level = request_.options.level;
+    text_ = "{";
+    const auto refined = [&](std::size_t i) {
+      const bool known = answer != nullptr && i < answer->meshes.size();
+      return known ? answer->meshes[i].points.size() / 3 : 0;
+    };
+    add("meshes", request_.meshes.size(), [&](std::size_t i) {
+      Json json = mesh_statistics(request_.meshes[i], level, refined(i));
+      if (answer != nullptr && i < answer->meshes.size())
+        json["output"] = {{"points", answer->meshes[i].points.size() / 3},
+                          {"triangles", answer->meshes[i].triangle_count}};
+      return json;
+    });
+    add("curves", request_.curves.size(), [&](std::size_t i) {
+      Json json = curve_statistics(request_.curves[i], level);
+      if (answer != nullptr && i < answer->curves.size())
+        json["output"] = {{"points", answer->curves[i].points.size() / answer->curves[i].width}};
+      return json;
+    });
+    add("surfaces", request_.surfaces.size(), [&](std::size_t i) {
+      Json json = surface_statistics(request_.surfaces[i], level);
+      if (answer != nullptr && i < answer->surfaces.size()) {
+        const RefinedPatch<Real>& surface = answer->surfaces[i];
+        json["output"] = {{"points", surface.points.size() / surface.width},
+                          {surface.corners_per_face == 4 ? "quads" : "triangles",
+                           surface.faces.size() / std::max<Index>(surface.corners_per_face, 1)}};
+      }
+      return json;
+    });
+    if (stopped_) return *stopped_;
+    return text_ + '}';
   }
-}
+
+ private:
+  template <class One>
+  void add(const char* name, std::size_t count, One one) {
+    if (count == 0) return;
+    if (text_.size() > 1) text_ += ',';
+    text_.append("\"").append(name).append("\":[");
+    for (std::size_t i = 0; i < count && !stopped_; ++i) {
+      if (i > 0) text_ += ',';
+      text_ += dumped(one(i));
+      stopped_ = budget_.poll();
+    }
+    text_ += ']';
+  }
+
+  const RefineRequest& request_;
+  const Budget& budget_;
+  std::string text_;
+  std::optional<Error> stopped_;
+};
 
 Json warnings(const RefineRequest& request, bool refined) {
   Json texts = request.warnings;
@@ -139,35 +162,32 @@ Json warnings(const RefineRequest& request, bool refined) {
 }
 
 // Everything but the verification, which is already text.
-std::string assemble(const RefineRequest& request, Json numbers, const Timings& timings, bool refined,
-                     const oracle::Report* verification) {
-  numbers["milliseconds"] = milliseconds(request, timings, refined);
-  std::string text = std::string("{\"options\":") + effective_options(request) +
-                     ",\"statistics\":" + numbers.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (const Json texts = warnings(request, refined); !texts.empty())
-    text += ",\"warnings\":" + texts.dump(-1, ' ', false, Json::error_handler_t::replace);
+Result<std::string> assemble(const RefineRequest& request, Result<std::string> numbers, bool refined,
+                             const oracle::Report* verification, const Budget& budget) {
+  if (!numbers) return numbers;
+  std::string text =
+      std::string("{\"options\":") + effective_options(request) + ",\"statistics\":" + *numbers;
+  if (const Json texts = warnings(request, refined); !texts.empty()) text += ",\"warnings\":" + dumped(texts);
   if (verification != nullptr) text += std::string(",\"verification\":") + report(*verification, &request);
+  if (auto stop = budget.poll()) return *stop;
   return text + '}';
 }
 
 }  // namespace
 
-std::string envelope(const RefineRequest& request, const AnyAnswer& answer) {
+Result<std::string> envelope(const RefineRequest& request, const AnyAnswer& answer, const Budget& budget) {
   return std::visit(
       [&](const auto& typed) {
-        std::vector<Count> points;
-        for (const auto& mesh : typed.meshes) points.push_back(mesh.points.size() / 3);
-        Json numbers = statistics(request, points);
-        add_outputs(numbers, typed);
         const auto* verification = typed.verification ? &*typed.verification : nullptr;
-        return assemble(request, std::move(numbers), typed.timings, true, verification);
+        return assemble(request, StatisticsWriter(request, budget).write(&typed), true, verification, budget);
       },
       answer);
 }
 
-std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
-                            const Timings& timings) {
-  return assemble(request, statistics(request, {}), timings, false, &verification);
+Result<std::string> report_envelope(const RefineRequest& request, const oracle::Report& verification,
+                                    const Budget& budget) {
+  constexpr const RefineAnswer<double>* kNothing = nullptr;
+  return assemble(request, StatisticsWriter(request, budget).write(kNothing), false, &verification, budget);
 }
 
 }  // namespace subdivd::proto::json

@@ -1,5 +1,5 @@
 #pragma once
-// The JSON encoding of requests and answers (DESIGN §6). read: simdjson; write: the shortest texts
+// The JSON encoding of requests and answers (DESIGN §6). read: cursor.h; write: the shortest texts
 // (text_writer.h).
 
 #include <string>
@@ -15,12 +15,8 @@ namespace subdivd::proto::json {
 // Reads a JSON body: meshes (not yet checked by ControlMesh::check), curves, options.
 Result<RefineRequest> read(std::string_view body, const Limits& limits, const Budget& budget);
 
-// The same for a body that is one curve or surface, or lists of them: what has a "type" or "basis" at its
-// top.
+// The same for a body that is one curve or surface, with its members at the top (Survey::is_curve).
 Result<RefineRequest> read_curve(std::string_view body, const Limits& limits, const Budget& budget);
-
-// Whether the body is a JSON object with this member at its top.
-bool has_member(std::string_view body, std::string_view name);
 
 // Upper bounds of the texts that write() and envelope() will make.
 Count predicted_envelope_bytes(const RefineRequest& request);
@@ -34,10 +30,10 @@ Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::strin
 // {"options": {…}, "statistics": {…}, "warnings": […], "verification": {…}} as one JSON object: the members
 // that every answer carries, whatever its format. glTF puts it into asset.extras.subdivd. Members that do not
 // apply are left out.
-std::string envelope(const RefineRequest& request, const AnyAnswer& answer);
+Result<std::string> envelope(const RefineRequest& request, const AnyAnswer& answer, const Budget& budget);
 // The same for an answer that is a report only: options, statistics of the input, warnings, verification.
-std::string report_envelope(const RefineRequest& request, const oracle::Report& verification,
-                            const Timings& timings);
+Result<std::string> report_envelope(const RefineRequest& request, const oracle::Report& verification,
+                                    const Budget& budget);
 // The verification member. With the request, faces are numbered as the caller numbered them.
 std::string report(const oracle::Report& report, const RefineRequest* request = nullptr);
 

@@ -44,6 +44,45 @@ void split(Path& where, const std::vector<Index>& lengths) {
   where.emplace_back(entry.position);
 }
 
+// Where an edge of the creases as they are now, each of two points, stood in the body.
+struct CreaseEdge {
+  std::uint64_t point = 0, edge = 0, crease = 0;
+};
+
+// The edges that were left are those that were there, in their order.
+CreaseEdge original_edge(std::uint64_t edge, const ControlMesh& mesh, const FaceHistory& history) {
+  CreaseEdge at;
+  std::uint64_t found = 0;
+  for (at.crease = 0; at.crease < history.crease_lengths.size(); ++at.crease, ++at.point)
+    for (Index k = 0; k + 1 < history.crease_lengths[at.crease]; ++k, ++at.edge, ++at.point) {
+      const bool left = mesh.crease_indices[2 * found] == history.crease_indices[at.point] &&
+                        mesh.crease_indices[2 * found + 1] == history.crease_indices[at.point + 1];
+      if (left && found++ == edge) return at;
+    }
+  return at;  // not reached
+}
+
+// Leaving out faces may have cut creases.
+bool were_cut(const ControlMesh& mesh, const FaceHistory& history) {
+  return !history.kept.empty() && mesh.crease_indices != history.crease_indices;
+}
+
+void locate_crease(Path& where, const ControlMesh& mesh, const JsonMeshForm& form,
+                   const FaceHistory& history) {
+  const std::string field = std::get<std::string>(where[0]);
+  const bool cut = were_cut(mesh, history);
+  std::uint64_t& k = std::get<std::uint64_t>(where[1]);
+  if (field == "creaseSharpnesses" && cut) {
+    const CreaseEdge edge = original_edge(k, mesh, history);
+    k = history.sharp_edges ? edge.edge : edge.crease;
+  }
+  if (field == "creaseIndices") {
+    if (cut) k = original_edge(k / 2, mesh, history).point + k % 2;
+    if (form.creases == ArrayForm::nested) split(where, cut ? history.crease_lengths : mesh.crease_lengths);
+  }
+  if (field == "creaseLengths" && form.creases == ArrayForm::nested) where[0] = "creaseIndices";
+}
+
 void locate_primvar(Path& where, const ControlMesh& mesh, const JsonMeshForm& form,
                     const FaceHistory& history) {
   const std::string& name = std::get<std::string>(where[1]);
@@ -88,21 +127,31 @@ Path locate(Path where, const ControlMesh& mesh, const JsonMeshForm& form, const
       split(where, history.changed() ? history.counts : mesh.face_vertex_counts);
   }
   if (field == "faceVertexCounts" && form.faces == ArrayForm::nested) where[0] = "faceVertexIndices";
-  // Leaving out faces may have cut creases and thinned out holes: their numbers are no longer the caller's.
-  if (history.changed() && (field == "holeIndices" || field.starts_with("crease"))) {
-    where.resize(1);
-    return where;
-  }
-  if (form.creases == ArrayForm::nested) {
-    if (field == "creaseIndices") split(where, mesh.crease_lengths);
-    if (field == "creaseLengths") where[0] = "creaseIndices";
-  }
+  if (field.starts_with("crease")) locate_crease(where, mesh, form, history);
   return where;
 }
 
-Path locate(Path where, const ControlCurves& curves, ArrayForm form) {
+Path locate(Path where, const ControlCurves& curves, const JsonCurvesForm& form) {
+  if (where.size() != 2 || !std::holds_alternative<std::uint64_t>(where[1])) {
+    if (where == Path{"order"} && form.order_list) where.emplace_back(std::uint64_t{0});
+    return where;
+  }
+  if (where[0] == PathStep("points") && form.points == ArrayForm::nested) split(where, curves.width);
+  if (where[0] == PathStep("ranges") && form.ranges == ArrayForm::flat)
+    std::get<std::uint64_t>(where[1]) *= 2;
+  return where;
+}
+
+Path locate(Path where, const ControlPatch& surface, const JsonSurfaceForm& form) {
+  if (where.empty()) return where;
   const bool point = where.size() == 2 && where[0] == PathStep("points");
-  if (point && form == ArrayForm::flat) std::get<std::uint64_t>(where[1]) *= curves.width;
+  if (point && form.points == ArrayForm::nested) split(where, surface.width);
+  if (where.size() > 1) return where;
+  // Of what the body does not say itself, the member that it followed from is to blame.
+  const auto is = [&](const char* name) { return where[0] == PathStep(name); };
+  if ((is("uDegree") && !form.u_degree) || (is("vDegree") && !form.v_degree)) where[0] = "degree";
+  if (is("width") || (is("uVertexCount") && !form.u_count) || (is("vVertexCount") && !form.v_count))
+    where[0] = "points";
   return where;
 }
 

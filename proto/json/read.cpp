@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <new>
 
 #include "proto/json/cursor.h"
-#include "proto/json/diagnose.h"
 #include "proto/json/document.h"
 #include "proto/json/json.h"
 #include "proto/json/read_mesh.h"
@@ -11,27 +9,20 @@
 namespace subdivd::proto::json {
 namespace {
 
-using simdjson::ondemand::json_type;
-
 // An empty mesh takes 40 bytes of text and over a thousand here, in the engine and in the answer.
 constexpr std::size_t kMostObjects = 65536;
 
 template <class ReadOne>
-bool each(Cursor& cursor, Value value, std::string_view right, ReadOne read_one) {
-  simdjson::ondemand::array array;
-  if (value.get_array().get(array)) return cursor.fail_type(value, right);
-  std::uint64_t i = 0;
-  for (auto element : array) {
-    Value one;
-    if (element.get(one)) return cursor.fail_syntax();
-    if (i == kMostObjects)
+bool each(Cursor& cursor, std::string_view right, ReadOne read_one) {
+  if (!cursor.open_array(right)) return false;
+  for (Cursor::Elements all(cursor); all.next();) {
+    if (all.index() == kMostObjects)
       return cursor.fail(ErrorCode::too_large,
                          std::string("there are more than ") + std::to_string(kMostObjects) + " of them");
-    const Cursor::Step step(cursor, i);
-    if (!read_one(one)) return false;
-    ++i;
+    const Cursor::Step step(cursor, all.index());
+    if (!read_one()) return false;
   }
-  return true;
+  return !cursor.failed();
 }
 
 void warn_once(std::vector<std::string>& warnings, bool& warned, const char* text) {
@@ -49,9 +40,9 @@ class DocumentReader {
   static constexpr std::size_t kMembers = kOwnMembers + MeshReader::kMembers;
   static const std::array<Cursor::Member<DocumentReader>, kMembers>& members();
 
-  bool read(simdjson::ondemand::object object) {
+  bool read() {
     std::bitset<kMembers> seen;
-    if (!cursor_.read_members(object, members(), *this, seen)) return false;
+    if (!cursor_.read_members(members(), *this, seen)) return false;
     if ((seen >> kOwnMembers).any()) {
       if (seen[0])
         return cursor_.fail(ErrorCode::duplicate_field,
@@ -68,27 +59,27 @@ class DocumentReader {
                         "faceVertexIndices, or meshes, curves or surfaces");
   }
 
-  bool meshes(Value value) {
-    return each(cursor_, value, "an array of meshes", [&](Value one) {
+  bool meshes() {
+    return each(cursor_, "an array of meshes", [&] {
       MeshRead mesh;
-      if (!read_mesh(cursor_, one, mesh)) return false;
+      if (!read_mesh(cursor_, mesh)) return false;
       add(std::move(mesh));
       return true;
     });
   }
 
-  bool curves(Value value) { return read_curve_list(cursor_, value, out_); }
+  bool curves() { return read_curve_list(cursor_, out_); }
 
-  bool surfaces(Value value) { return read_surface_list(cursor_, value, out_); }
+  bool surfaces() { return read_surface_list(cursor_, out_); }
 
-  bool options(Value value) { return read_options(cursor_, value, out_.options); }
+  bool options() { return read_options(cursor_, out_.options, option_names()); }
 
   // Members of an answer: it is a valid request, so they may stand here. They are looked at, not used.
-  bool ignored(Value value) { return cursor_.skip(value, limits_.max_json_depth); }
+  bool ignored() { return cursor_.skip(limits_.max_json_depth); }
 
-  template <bool (MeshReader::*member)(Value)>
-  bool of_mesh(Value value) {
-    return (top_mesh_.*member)(value);
+  template <bool (MeshReader::*member)()>
+  bool of_mesh() {
+    return (top_mesh_.*member)();
   }
 
  private:
@@ -139,11 +130,11 @@ const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& Docu
 
 }  // namespace
 
-bool read_curve_list(Cursor& cursor, Value value, RefineRequest& out) {
+bool read_curve_list(Cursor& cursor, RefineRequest& out) {
   bool warned = false;
-  return each(cursor, value, "an array of curves", [&](Value one) {
+  return each(cursor, "an array of curves", [&] {
     CurvesRead curves;
-    if (!read_curves(cursor, one, curves)) return false;
+    if (!read_curves(cursor, curves)) return false;
     if (curves.had_tangents) warn_once(out.warnings, warned, "tangents of the body are not used");
     out.curves.push_back(std::move(curves.curves));
     out.curve_forms.push_back(curves.form);
@@ -151,114 +142,89 @@ bool read_curve_list(Cursor& cursor, Value value, RefineRequest& out) {
   });
 }
 
-bool read_surface_list(Cursor& cursor, Value value, RefineRequest& out) {
-  return each(cursor, value, "an array of surfaces", [&](Value one) {
+bool read_surface_list(Cursor& cursor, RefineRequest& out) {
+  return each(cursor, "an array of surfaces", [&] {
     CurvesRead read;
-    if (!read_surface(cursor, one, read)) return false;
+    if (!read_surface(cursor, read)) return false;
     out.surfaces.push_back(*std::move(read.surface));
-    out.surface_forms.push_back(read.form);
+    out.surface_forms.push_back(read.surface_form);
     return true;
   });
 }
 
-bool read_options(Cursor& cursor, Value value, Options& out) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor.fail_type(value, "an object of options");
-  std::bitset<64> seen;
-  for (auto field : object) {
-    std::string_view key;
-    Value one;
-    json_type type{};
-    if (field.unescaped_key().get(key) || field.value().get(one) || one.type().get(type))
-      return cursor.fail_syntax();
-    const std::string name(key);
-    if (const OptionSpec* spec = find_option(name)) {
-      const auto number = static_cast<std::size_t>(spec - option_table().data());
-      if (seen[number]) return cursor.fail_twice(name);
-      seen.set(number);
-    }
-    const Cursor::Step step(cursor, std::string_view(name));
-    OptionValue given;
-    std::string_view text;
-    bool truth = false;
-    double real = 0;
-    if (type == json_type::boolean) {
-      if (one.get_bool().get(truth)) return cursor.fail_syntax();
-      given.boolean = truth;
-    } else if (type == json_type::number) {
-      if (!get_number(one, real)) return cursor.fail_number(one, "a number within range");
-      given.number = real;
-    } else if (type == json_type::string) {
-      if (one.get_string().get(text)) return cursor.fail_syntax();
-      given.text = text;
-    }
-    if (Result<void> done = set_option(out, name, given, cursor.path()); !done) {
-      const Error& error = done.error();
-      return cursor.fail_as(error);
-    }
-  }
-  return true;
-}
-
 namespace {
 
-// Opens the document, lets the reader walk it and makes sure that nothing follows.
-bool walk(Cursor& cursor, simdjson::ondemand::parser& parser, const simdjson::padded_string& text,
-          const std::function<bool(Cursor&, simdjson::ondemand::object)>& read) {
-  simdjson::ondemand::document document;
-  if (parser.iterate(text).get(document)) return cursor.fail_syntax();
-  json_type type{};
-  if (document.type().get(type)) return cursor.fail_syntax();
-  if (type != json_type::object) return cursor.fail(ErrorCode::wrong_type, "the body must be a JSON object");
-  simdjson::ondemand::object object;
-  if (document.get_object().get(object)) return cursor.fail_syntax();
-  if (!read(cursor, object)) return false;
-  const char* next = nullptr;
-  if (document.current_location().get(next) != simdjson::OUT_OF_BOUNDS)
-    return cursor.fail(ErrorCode::malformed, "something follows the JSON object; the body must end with it");
-  return true;
+// The value of an option, of whatever type it is; arrays and objects are looked at and left.
+bool read_option_value(Cursor& cursor, OptionValue& out) {
+  constexpr std::size_t kDeepest = 64;
+  switch (cursor.type()) {
+    case Type::boolean:
+      return cursor.read_bool(out.boolean.emplace(), "true or false");
+    case Type::number:
+      return cursor.read_number(out.number.emplace(), "a number within range");
+    case Type::string:
+      return cursor.read_string(out.text.emplace());
+    case Type::null:
+      out.other = "null";
+      return cursor.read_null();
+    case Type::array:
+      out.other = "an array";
+      return cursor.skip(kDeepest);
+    case Type::object:
+      out.other = "an object";
+      return cursor.skip(kDeepest);
+    case Type::none:
+      break;
+  }
+  return cursor.fail_syntax();
 }
 
 }  // namespace
 
-Result<void> read_document(std::string_view body,
-                           const std::function<bool(Cursor&, simdjson::ondemand::object)>& read) {
-  // A byte order mark is no JSON, but some editors write it.
-  if (body.starts_with("\xEF\xBB\xBF")) body.remove_prefix(3);
-  const simdjson::padded_string text(body);  // simdjson reads up to 64 bytes past the end
-  if (text.size() != body.size())
-    return Error{ErrorCode::too_large, "there is no memory for this body", {}, body.size(), 0};
-  simdjson::ondemand::parser parser;
-  Cursor cursor;
-  if (walk(cursor, parser, text, read)) return {};
-  if (cursor.malformed()) return diagnose(body);
+bool read_options(Cursor& cursor, Options& out, std::span<const std::string_view> taken) {
+  if (!cursor.open_object("an object of options")) return false;
+  std::bitset<64> seen;
+  std::string_view key;
+  for (Cursor::Members all(cursor); all.next(key);) {
+    const OptionSpec* const spec = find_option(key);
+    const Cursor::Step step(cursor, key);
+    if (Result<void> known = check_option(key, taken, cursor.path()); !known)
+      return cursor.fail_as(std::move(known).error());
+    const auto number = static_cast<std::size_t>(spec - option_table().data());
+    if (seen[number])
+      return cursor.fail(ErrorCode::duplicate_field,
+                         "the member " + in_quotes(key) + " is given twice; give it once");
+    seen.set(number);
+    OptionValue given;
+    if (!read_option_value(cursor, given)) return false;
+    if (Result<void> done = set_option(out, spec->name, given, cursor.path()); !done)
+      return cursor.fail_as(std::move(done).error());
+  }
+  return !cursor.failed();
+}
+
+Result<void> read_document(std::string_view body, const Budget& budget,
+                           const std::function<bool(Cursor&)>& read) {
+  Cursor cursor(body, budget);
+  const auto walk = [&] {
+    const Type type = cursor.type();
+    if (type != Type::object && type != Type::none)
+      return cursor.fail(ErrorCode::wrong_type, "the body must be a JSON object");
+    if (!cursor.open_object("an object") || !read(cursor)) return false;
+    return cursor.at_end() ||
+           cursor.fail(ErrorCode::malformed, "something follows the JSON object; the body must end with it");
+  };
+  if (walk()) return {};
   return *cursor.error();
 }
 
-Result<RefineRequest> read(std::string_view body, const Limits& limits,
-                           [[maybe_unused]] const Budget& budget) {
+Result<RefineRequest> read(std::string_view body, const Limits& limits, const Budget& budget) {
   RefineRequest request;
   request.input = Format::json;
-  const auto done = read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {
-    return DocumentReader(cursor, limits, request).read(object);
-  });
+  const auto done = read_document(
+      body, budget, [&](Cursor& cursor) { return DocumentReader(cursor, limits, request).read(); });
   if (!done) return done.error();
   return request;
-}
-
-bool has_member(std::string_view body, std::string_view name) {
-  const simdjson::padded_string text(body);
-  simdjson::ondemand::parser parser;
-  simdjson::ondemand::document document;
-  simdjson::ondemand::object object;
-  if (text.size() != body.size() || parser.iterate(text).get(document) || document.get_object().get(object))
-    return false;
-  for (auto field : object) {
-    std::string_view key;
-    if (field.unescaped_key().get(key)) return false;
-    if (key == name) return true;
-  }
-  return false;
 }
 
 }  // namespace subdivd::proto::json

@@ -11,6 +11,7 @@
 #include "proto/json/document.h"
 #include "proto/json/json.h"
 #include "proto/json/read_mesh.h"
+#include "proto/json/survey.h"
 #include "proto/options.h"
 #include "proto/prepare.h"
 
@@ -19,6 +20,12 @@ namespace json {
 namespace {
 
 using Kind = CurveTaskKind;
+
+// What is asked beside curves is computed in double, and told in the precision of the answer.
+std::span<const std::string_view> options_of(Kind kind) {
+  static constexpr std::array<std::string_view, 1> kOfTasks = {"precision"};
+  return kind == Kind::refine ? option_names() : std::span<const std::string_view>(kOfTasks);
+}
 
 constexpr std::array<std::string_view, 5> kForms = {"nurbs", "bezier", "bspline", "catmullRom", "hermite"};
 
@@ -83,9 +90,9 @@ class CurveTaskReader {
     return table;
   }
 
-  bool read(simdjson::ondemand::object object) {
+  bool read() {
     std::bitset<kMembers> seen;
-    if (!cursor_.read_members(object, members(), *this, seen)) return false;
+    if (!cursor_.read_members(members(), *this, seen)) return false;
     if ((seen >> kOwnMembers).any()) {
       if (seen[0] || seen[1])
         return cursor_.fail(ErrorCode::duplicate_field,
@@ -99,14 +106,12 @@ class CurveTaskReader {
     return check_members(seen);
   }
 
-  bool curves(Value value) { return read_curve_list(cursor_, value, out_.curves); }
-  bool surfaces(Value value) { return read_surface_list(cursor_, value, out_.curves); }
-  bool options(Value value) { return read_options(cursor_, value, out_.curves.options); }
+  bool curves() { return read_curve_list(cursor_, out_.curves); }
+  bool surfaces() { return read_surface_list(cursor_, out_.curves); }
+  bool options() { return read_options(cursor_, out_.curves.options, options_of(task().kind)); }
 
-  bool samples(Value value) {
-    simdjson::ondemand::object object;
-    if (value.get_object().get(object))
-      return cursor_.fail_type(value, "an object with curves and ts, or with surfaces, us and vs");
+  bool samples() {
+    if (!cursor_.open_object("an object with curves and ts, or with surfaces, us and vs")) return false;
     using T = CurveTaskReader;
     static constexpr std::array<Cursor::Member<T>, 5> table = {{{"curves", &T::sample_curves},
                                                                 {"ts", &T::sample_ts},
@@ -114,7 +119,7 @@ class CurveTaskReader {
                                                                 {"us", &T::sample_us},
                                                                 {"vs", &T::sample_vs}}};
     std::bitset<5> seen;
-    if (!cursor_.read_members(object, table, *this, seen)) return false;
+    if (!cursor_.read_members(table, *this, seen)) return false;
     const bool of_curves = seen[0] || seen[1];
     if (of_curves && (seen >> 2).any())
       return cursor_.fail(ErrorCode::duplicate_field,
@@ -127,72 +132,66 @@ class CurveTaskReader {
       return cursor_.fail(ErrorCode::missing_field, "samples need parameters: ts, or us and vs", {"ts"});
     return check_count(seen[0], task().sample_curves, "curves", task().sample_ts, "ts");
   }
-  bool sample_curves(Value value) { return read_indices(cursor_, value, task().sample_curves); }
-  bool sample_ts(Value value) { return read_reals(cursor_, value, task().sample_ts); }
-  bool sample_surfaces(Value value) { return read_indices(cursor_, value, task().sample_surfaces); }
-  bool sample_us(Value value) { return read_reals(cursor_, value, task().sample_us); }
-  bool sample_vs(Value value) { return read_reals(cursor_, value, task().sample_vs); }
+  bool sample_curves() { return read_indices(cursor_, task().sample_curves); }
+  bool sample_ts() { return read_reals(cursor_, task().sample_ts); }
+  bool sample_surfaces() { return read_indices(cursor_, task().sample_surfaces); }
+  bool sample_us() { return read_reals(cursor_, task().sample_us); }
+  bool sample_vs() { return read_reals(cursor_, task().sample_vs); }
 
-  bool derivatives(Value value) { return read_count(value, kMostDerivatives, task().derivatives); }
-  bool frames(Value value) { return read_truth(value, task().frames); }
-  bool insert(Value value) { return read_reals(cursor_, value, task().insert); }
-  bool remove(Value value) { return read_reals(cursor_, value, task().remove.emplace()); }
-  bool tolerance(Value value) { return read_real(value, task().tolerance.emplace()); }
-  bool to(Value value) {
+  bool derivatives() { return read_count(kMostDerivatives, task().derivatives); }
+  bool frames() { return read_truth(task().frames); }
+  bool insert() { return read_reals(cursor_, task().insert); }
+  bool remove() { return read_reals(cursor_, task().remove.emplace()); }
+  bool tolerance() { return read_real(task().tolerance.emplace()); }
+  bool to() {
     std::size_t word = 0;
-    if (!cursor_.read_word(value, kForms, word)) return false;
+    if (!cursor_.read_word(kForms, word)) return false;
     task().to = static_cast<CurveForm>(word);
     return true;
   }
-  bool to_degree(Value value) {
+  bool to_degree() {
     Index& degree = task().to_degree.emplace();
-    if (!read_count(value, kMaxDegree, degree)) return false;
+    if (!read_count(kMaxDegree, degree)) return false;
     return degree >= 1 || cursor_.fail(ErrorCode::out_of_range, "the degree of a curve is 1 at least");
   }
-  bool range(Value value) { return read_pair(value, task().range.emplace()); }
-  bool domain(Value value) { return read_pair(value, task().domain.emplace()); }
-  bool reversed(Value value) { return read_truth(value, task().reversed); }
-  bool join(Value value) { return read_truth(value, task().join); }
-  bool closest_to(Value value) {
+  bool range() { return read_pair(task().range.emplace()); }
+  bool domain() { return read_pair(task().domain.emplace()); }
+  bool reversed() { return read_truth(task().reversed); }
+  bool join() { return read_truth(task().join); }
+  bool closest_to() {
     Tuples tuples;
-    if (!read_tuples(cursor_, value, 0, kMaxCurveWidth, "point", tuples)) return false;
+    if (!read_tuples(cursor_, 0, kMaxCurveWidth, "point", tuples)) return false;
     if (tuples.form == ArrayForm::flat && !tuples.values.empty())
       return cursor_.fail(ErrorCode::wrong_type, "points to come close to must be nested, [[x, y], …]");
     task().closest_to = std::move(tuples.values);
     task().closest_width = tuples.width;
     return true;
   }
-  bool flatten(Value value) { return read_real(value, task().flatten.emplace()); }
-  bool equal_lengths(Value value) {
-    return read_count(value, kMostEqualLengths, task().equal_lengths.emplace());
-  }
-  bool convergence(Value value) { return read_count(value, kMaxCurveLevel, task().convergence.emplace()); }
+  bool flatten() { return read_real(task().flatten.emplace()); }
+  bool equal_lengths() { return read_count(kMostEqualLengths, task().equal_lengths.emplace()); }
+  bool convergence() { return read_count(kMaxCurveLevel, task().convergence.emplace()); }
   // Members of an answer, which is a valid request.
-  bool ignored(Value value) { return cursor_.skip(value, limits_.max_json_depth); }
+  bool ignored() { return cursor_.skip(limits_.max_json_depth); }
 
-  template <bool (CurvesReader::*member)(Value)>
-  bool of_curve(Value value) {
-    return (top_curve_.*member)(value);
+  template <bool (CurvesReader::*member)()>
+  bool of_curve() {
+    return (top_curve_.*member)();
   }
 
  private:
   CurveTask& task() { return out_.task; }
 
-  bool read_real(Value value, double& out) {
-    return get_number(value, out) || cursor_.fail_number(value, "a number");
-  }
-  bool read_truth(Value value, bool& out) {
-    return !value.get_bool().get(out) || cursor_.fail_type(value, "true or false");
-  }
-  bool read_count(Value value, Index most, Index& out) {
-    if (!read_whole_number(cursor_, value, out)) return false;
+  bool read_real(double& out) { return cursor_.read_number(out, "a number"); }
+  bool read_truth(bool& out) { return cursor_.read_bool(out, "true or false"); }
+  bool read_count(Index most, Index& out) {
+    if (!read_whole_number(cursor_, out)) return false;
     if (out <= most) return true;
     return cursor_.fail(ErrorCode::out_of_range, "this is " + std::to_string(out) + "; it must be " +
                                                      std::to_string(most) + " at most");
   }
-  bool read_pair(Value value, std::array<double, 2>& out) {
+  bool read_pair(std::array<double, 2>& out) {
     std::vector<double> numbers;
-    if (!read_reals(cursor_, value, numbers)) return false;
+    if (!read_reals(cursor_, numbers)) return false;
     if (numbers.size() != 2)
       return cursor_.fail(ErrorCode::wrong_length,
                           "two numbers are needed, the first and the last parameter");
@@ -206,7 +205,7 @@ class CurveTaskReader {
     request.single_surface_at_top = top_.surface.has_value();
     if (top_.surface) {
       request.surfaces.push_back(*std::move(top_.surface));
-      request.surface_forms.push_back(top_.form);
+      request.surface_forms.push_back(top_.surface_form);
     } else {
       request.curves.push_back(std::move(top_.curves));
       request.curve_forms.push_back(top_.form);
@@ -226,7 +225,11 @@ class CurveTaskReader {
   // Whose parameters they are: numbers that were left out are 0.
   bool check_count(bool given, std::vector<Index>& numbers, const char* of,
                    const std::vector<double>& parameters, const char* name) {
-    if (!given) numbers.assign(parameters.size(), 0);
+    if (!given) {
+      const Count bytes = parameters.size() * sizeof(Index);
+      if (auto taken = cursor_.budget().take_memory(bytes); !taken) return cursor_.fail_as(taken.error());
+      numbers.assign(parameters.size(), 0);
+    }
     if (numbers.size() == parameters.size()) return true;
     return cursor_.fail(ErrorCode::wrong_length,
                         "there are " + std::to_string(numbers.size()) + ' ' + of + " for " +
@@ -241,8 +244,7 @@ class CurveTaskReader {
       std::array<Kind, 2> tasks;
       bool needed;
     };
-    static constexpr std::array<Rule, 17> rules = {{
-        {"options", {Kind::refine, Kind::refine}, false},
+    static constexpr std::array<Rule, 16> rules = {{
         {"samples", {Kind::evaluate, Kind::evaluate}, true},
         {"derivatives", {Kind::evaluate, Kind::evaluate}, false},
         {"frames", {Kind::evaluate, Kind::evaluate}, false},
@@ -284,20 +286,19 @@ class CurveTaskReader {
   CurvesReader top_curve_;
 };
 
-Result<void> read_task(std::string_view body, const Limits& limits, CurveRequest& request) {
+Result<void> read_task(std::string_view body, const Limits& limits, const Budget& budget,
+                       CurveRequest& request) {
   request.curves.input = Format::json;
   request.curves.without_meshes = true;
-  return read_document(body, [&](Cursor& cursor, simdjson::ondemand::object object) {
-    return CurveTaskReader(cursor, limits, request).read(object);
-  });
+  return read_document(body, budget,
+                       [&](Cursor& cursor) { return CurveTaskReader(cursor, limits, request).read(); });
 }
 
 }  // namespace
 
-Result<RefineRequest> read_curve(std::string_view body, const Limits& limits,
-                                 [[maybe_unused]] const Budget& budget) {
+Result<RefineRequest> read_curve(std::string_view body, const Limits& limits, const Budget& budget) {
   CurveRequest request;
-  if (auto done = read_task(body, limits, request); !done) return std::move(done).error();
+  if (auto done = read_task(body, limits, budget, request); !done) return std::move(done).error();
   return std::move(request.curves);
 }
 
@@ -336,11 +337,12 @@ Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, co
                  limits.max_body_bytes};
   CurveRequest request;
   request.task.kind = kind;
-  if (auto done = json::read_task(body, limits, request); !done) return std::move(done).error();
-  if (kind != CurveTaskKind::refine && !query.empty())
-    return Error{
-        ErrorCode::unknown_field, "this request takes no query parameters", {"?" + query[0].first}, 0, 0};
-  if (auto set = set_parameters(request.curves.options, query); !set) return set.error();
+  const auto survey = json::survey(body, budget);
+  if (!survey) return survey.error();
+  if (auto taken = budget.take_memory(survey->reading_bytes()); !taken) return taken.error();
+  if (auto done = json::read_task(body, limits, budget, request); !done) return std::move(done).error();
+  if (auto set = set_parameters(request.curves.options, query, json::options_of(kind)); !set)
+    return set.error();
   if (auto fine = check_options(request.curves.options, limits, query); !fine) return fine.error();
   if (auto fine = prepare(request.curves, budget); !fine) return fine.error();
   if (auto fine = check_surfaces(request); !fine) return fine.error();

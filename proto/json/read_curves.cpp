@@ -11,7 +11,7 @@ namespace subdivd::proto::json {
 namespace {
 
 constexpr std::array<std::string_view, 4> kTypes = {"cubic", "linear", "nurbs", "bsplineSurface"};
-enum class Type { cubic, linear, nurbs, surface };
+enum class CurveType { cubic, linear, nurbs, surface };
 
 }  // namespace
 
@@ -58,44 +58,40 @@ const std::array<CurvesReader::Member, CurvesReader::kSurfaceMembers>& CurvesRea
   return table;
 }
 
-void CurvesReader::expect_surface() { type_ = static_cast<std::size_t>(Type::surface); }
+void CurvesReader::expect_surface() { type_ = static_cast<std::size_t>(CurveType::surface); }
 
-bool CurvesReader::name(Value value) { return cursor_.read_string(value, out_.curves.name); }
+bool CurvesReader::name() { return cursor_.read_string(out_.curves.name); }
 
-bool CurvesReader::type(Value value) { return read_word(value, kTypes, type_); }
+bool CurvesReader::type() { return read_word(kTypes, type_); }
 
-bool CurvesReader::basis(Value value) {
+bool CurvesReader::basis() {
   // Of the enumeration, knots have a type of their own.
   std::size_t word = 0;
-  if (!cursor_.read_word(value, basis_words(), word)) return false;
+  if (!cursor_.read_word(basis_words(), word)) return false;
   out_.curves.basis = static_cast<CurveBasis>(word);
   return given(Part::basis);
 }
 
-bool CurvesReader::degree(Value value) {
-  return read_whole_number(cursor_, value, out_.curves.degree) && given(Part::degree);
-}
+bool CurvesReader::degree() { return read_whole_number(cursor_, out_.curves.degree) && given(Part::degree); }
 
-bool CurvesReader::wrap(Value value) { return read_wrap(value, out_.curves.wrap) && given(Part::wrap); }
+bool CurvesReader::wrap() { return read_wrap(out_.curves.wrap) && given(Part::wrap); }
 
-bool CurvesReader::tension(Value value) {
-  return read_number(value, out_.curves.tension) && given(Part::tension);
-}
+bool CurvesReader::tension() { return read_number(out_.curves.tension) && given(Part::tension); }
 
-bool CurvesReader::ratio(Value value) { return read_number(value, out_.curves.ratio) && given(Part::ratio); }
+bool CurvesReader::ratio() { return read_number(out_.curves.ratio) && given(Part::ratio); }
 
-bool CurvesReader::spacing(Value value) {
+bool CurvesReader::spacing() {
   std::size_t word = 0;
-  if (!cursor_.read_word(value, spacing_words(), word)) return false;
+  if (!cursor_.read_word(spacing_words(), word)) return false;
   out_.curves.spacing = static_cast<Spacing>(word);
   return given(Part::spacing);
 }
 
-bool CurvesReader::points(Value value) {
+bool CurvesReader::points() {
   has_points_ = true;
   Tuples tuples;
-  if (!read_tuples(cursor_, value, 0, kMaxCurveWidth, "point", tuples)) return false;
-  out_.form = tuples.form;
+  if (!read_tuples(cursor_, 0, kMaxCurveWidth, "point", tuples)) return false;
+  out_.form.points = tuples.form;
   out_.curves.width = tuples.width > 0 ? tuples.width : 3;
   if (tuples.values.size() % out_.curves.width != 0)
     return cursor_.fail(
@@ -106,85 +102,83 @@ bool CurvesReader::points(Value value) {
   return true;
 }
 
-bool CurvesReader::curve_vertex_counts(Value value) {
-  return read_indices(cursor_, value, out_.curves.vertex_counts) && given(Part::vertex_counts);
+bool CurvesReader::curve_vertex_counts() {
+  return read_indices(cursor_, out_.curves.vertex_counts) && given(Part::vertex_counts);
 }
 
 // One for all curves, as a number, or one for each.
-bool CurvesReader::order(Value value) {
-  simdjson::ondemand::json_type type{};
-  if (value.type().get(type)) return cursor_.fail_syntax();
-  if (type == simdjson::ondemand::json_type::array) {
-    if (!read_indices(cursor_, value, out_.curves.orders)) return false;
+bool CurvesReader::order() {
+  out_.form.order_list = cursor_.type() == Type::array;
+  if (out_.form.order_list) {
+    if (!read_indices(cursor_, out_.curves.orders)) return false;
   } else {
     Index one = 0;
-    if (!read_whole_number(cursor_, value, one)) return false;
+    if (!read_whole_number(cursor_, one)) return false;
     out_.curves.orders = {one};
   }
   return given(Part::order);
 }
 
-bool CurvesReader::knots(Value value) { return read_numbers(value, out_.curves.knots) && given(Part::knots); }
+bool CurvesReader::knots() { return read_numbers(out_.curves.knots) && given(Part::knots); }
 
-bool CurvesReader::ranges(Value value) {
+bool CurvesReader::ranges() {
   Tuples tuples;
-  if (!read_tuples(cursor_, value, 2, 2, "range", tuples)) return false;
+  if (!read_tuples(cursor_, 2, 2, "range", tuples)) return false;
+  out_.form.ranges = tuples.form;
   out_.curves.ranges = std::move(tuples.values);
   return given(Part::ranges);
 }
 
-bool CurvesReader::point_weights(Value value) {
-  return read_numbers(value, out_.curves.weights) && given(Part::point_weights);
-}
+bool CurvesReader::point_weights() { return read_numbers(out_.curves.weights) && given(Part::point_weights); }
 
-bool CurvesReader::tangents(Value value) {
+bool CurvesReader::tangents() {
   Tuples unused;
   out_.had_tangents = true;
-  return read_tuples(cursor_, value, 0, kMaxCurveWidth, "tangent", unused);
+  return read_tuples(cursor_, 0, kMaxCurveWidth, "tangent", unused);
 }
 
-bool CurvesReader::u_vertex_count(Value value) {
-  return read_whole_number(cursor_, value, surface_.u_count) && given(Part::u_count);
+bool CurvesReader::u_vertex_count() {
+  return read_whole_number(cursor_, surface_.u_count) && given(Part::u_count);
 }
 
-bool CurvesReader::v_vertex_count(Value value) {
-  return read_whole_number(cursor_, value, surface_.v_count) && given(Part::v_count);
+bool CurvesReader::v_vertex_count() {
+  return read_whole_number(cursor_, surface_.v_count) && given(Part::v_count);
 }
 
-bool CurvesReader::u_degree(Value value) {
-  return read_whole_number(cursor_, value, surface_.u_degree) && given(Part::u_degree);
+bool CurvesReader::u_degree() {
+  return read_whole_number(cursor_, surface_.u_degree) && given(Part::u_degree);
 }
 
-bool CurvesReader::v_degree(Value value) {
-  return read_whole_number(cursor_, value, surface_.v_degree) && given(Part::v_degree);
+bool CurvesReader::v_degree() {
+  return read_whole_number(cursor_, surface_.v_degree) && given(Part::v_degree);
 }
 
-bool CurvesReader::u_wrap(Value value) { return read_wrap(value, surface_.u_wrap) && given(Part::u_wrap); }
+bool CurvesReader::u_wrap() { return read_wrap(surface_.u_wrap) && given(Part::u_wrap); }
 
-bool CurvesReader::v_wrap(Value value) { return read_wrap(value, surface_.v_wrap) && given(Part::v_wrap); }
+bool CurvesReader::v_wrap() { return read_wrap(surface_.v_wrap) && given(Part::v_wrap); }
 
 // Members of an answer, which is a valid request: faces of a surface follow from its counts.
-bool CurvesReader::face_vertex_counts(Value value) {
+bool CurvesReader::face_vertex_counts() {
   std::vector<Index> unused;
-  return read_indices(cursor_, value, unused) && given(Part::faces);
+  return read_indices(cursor_, unused) && given(Part::faces);
 }
 
-bool CurvesReader::face_vertex_indices(Value value) {
+bool CurvesReader::face_vertex_indices() {
   Lists unused;
-  return read_lists(cursor_, value, "face", unused) && given(Part::faces);
+  return read_lists(cursor_, "face", unused) && given(Part::faces);
 }
 
-bool CurvesReader::normals(Value value) {
+bool CurvesReader::normals() {
   Tuples unused;
-  return read_tuples(cursor_, value, 3, 3, "normal", unused) && given(Part::normals);
+  return read_tuples(cursor_, 3, 3, "normal", unused) && given(Part::normals);
 }
 
 bool CurvesReader::finish() {
-  const bool surface = type_ == static_cast<std::size_t>(Type::surface);
+  const bool surface = type_ == static_cast<std::size_t>(CurveType::surface);
   if (!has_points_)
     return cursor_.fail(ErrorCode::missing_field, surface ? "a surface needs points" : "a curve needs points",
                         {"points"});
-  if (type_ == static_cast<std::size_t>(Type::nurbs)) out_.curves.basis = CurveBasis::nurbs;
+  if (type_ == static_cast<std::size_t>(CurveType::nurbs)) out_.curves.basis = CurveBasis::nurbs;
   if (!check_members()) return false;
   return surface ? settle_surface() : settle_type();
 }
@@ -192,7 +186,7 @@ bool CurvesReader::finish() {
 // What belongs to one kind may not stand at another: it would be ignored.
 bool CurvesReader::check_members() {
   const ControlCurves& curves = out_.curves;
-  const bool surface = type_ == static_cast<std::size_t>(Type::surface);
+  const bool surface = type_ == static_cast<std::size_t>(CurveType::surface);
   const bool on_knots = curves.basis == CurveBasis::nurbs;
   const bool is_bspline = curves.basis == CurveBasis::bspline;
   struct Rule {
@@ -264,15 +258,20 @@ bool CurvesReader::settle_surface() {
     if (!is_given(Part::u_wrap)) surface_.u_wrap = read.wrap;
     if (!is_given(Part::v_wrap)) surface_.v_wrap = read.wrap;
   }
+  out_.surface_form = {.points = out_.form.points,
+                       .u_degree = is_given(Part::u_degree) || !is_given(Part::degree),
+                       .v_degree = is_given(Part::v_degree) || !is_given(Part::degree),
+                       .u_count = is_given(Part::u_count),
+                       .v_count = is_given(Part::v_count)};
   out_.surface = std::move(surface_);
   return true;
 }
 
 // "cubic" and "linear" say the degree of a B-spline, too.
 bool CurvesReader::settle_type() {
-  if (!type_ || *type_ == static_cast<std::size_t>(Type::nurbs)) return true;
+  if (!type_ || *type_ == static_cast<std::size_t>(CurveType::nurbs)) return true;
   ControlCurves& curves = out_.curves;
-  const bool linear = *type_ == static_cast<std::size_t>(Type::linear);
+  const bool linear = *type_ == static_cast<std::size_t>(CurveType::linear);
   if (linear && curves.basis != CurveBasis::bspline)
     return cursor_.fail(ErrorCode::wrong_type, "a curve of type \"linear\" has no basis but \"bspline\"",
                         {"basis"});
@@ -286,47 +285,39 @@ bool CurvesReader::settle_type() {
   return true;
 }
 
-bool CurvesReader::read_word(Value value, std::span<const std::string_view> words,
-                             std::optional<std::size_t>& out) {
+bool CurvesReader::read_word(std::span<const std::string_view> words, std::optional<std::size_t>& out) {
   std::size_t word = 0;
-  if (!cursor_.read_word(value, words, word)) return false;
+  if (!cursor_.read_word(words, word)) return false;
   out = word;
   return true;
 }
 
-bool CurvesReader::read_wrap(Value value, CurveWrap& out) {
+bool CurvesReader::read_wrap(CurveWrap& out) {
   std::size_t word = 0;
-  if (!cursor_.read_word(value, wrap_words(), word)) return false;
+  if (!cursor_.read_word(wrap_words(), word)) return false;
   out = static_cast<CurveWrap>(word);
   return true;
 }
 
-bool CurvesReader::read_number(Value value, double& out) {
-  return get_number(value, out) || cursor_.fail_number(value, "a number");
-}
+bool CurvesReader::read_number(double& out) { return cursor_.read_number(out, "a number"); }
 
-bool CurvesReader::read_numbers(Value value, std::vector<double>& out) {
-  return read_reals(cursor_, value, out);
-}
+bool CurvesReader::read_numbers(std::vector<double>& out) { return read_reals(cursor_, out); }
 
-bool read_curves(Cursor& cursor, Value value, CurvesRead& out) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor.fail_type(value, "a curve, an object");
+bool read_curves(Cursor& cursor, CurvesRead& out) {
+  if (!cursor.open_object("a curve, an object")) return false;
   CurvesReader reader(cursor, out);
   std::bitset<CurvesReader::kMembers> seen;
-  if (!cursor.read_members(object, CurvesReader::members(), reader, seen) || !reader.finish()) return false;
+  if (!cursor.read_members(CurvesReader::members(), reader, seen) || !reader.finish()) return false;
   return !out.surface || cursor.fail(ErrorCode::wrong_type,
                                      "a surface belongs into surfaces, not among the curves", {"type"});
 }
 
-bool read_surface(Cursor& cursor, Value value, CurvesRead& out) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor.fail_type(value, "a surface, an object");
+bool read_surface(Cursor& cursor, CurvesRead& out) {
+  if (!cursor.open_object("a surface, an object")) return false;
   CurvesReader reader(cursor, out);
   reader.expect_surface();
   std::bitset<CurvesReader::kSurfaceMembers> seen;
-  if (!cursor.read_members(object, CurvesReader::surface_members(), reader, seen) || !reader.finish())
-    return false;
+  if (!cursor.read_members(CurvesReader::surface_members(), reader, seen) || !reader.finish()) return false;
   return out.surface ||
          cursor.fail(ErrorCode::wrong_type,
                      "a surface has the type \"bsplineSurface\"; curves belong into curves", {"type"});

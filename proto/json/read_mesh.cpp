@@ -10,9 +10,9 @@ constexpr std::size_t kMostPrimvars = 4096;
 
 // A word of an option that a mesh may also set for itself.
 template <class Enum>
-bool read_option_word(Cursor& cursor, Value value, std::string_view option, Enum& out) {
+bool read_option_word(Cursor& cursor, std::string_view option, Enum& out) {
   std::size_t word = 0;
-  if (!cursor.read_word(value, find_option(option)->words, word)) return false;
+  if (!cursor.read_word(find_option(option)->words, word)) return false;
   out = static_cast<Enum>(word);
   return true;
 }
@@ -52,73 +52,64 @@ const std::array<Cursor::Member<MeshReader>, MeshReader::kMembers>& MeshReader::
   return table;
 }
 
-bool MeshReader::name(Value value) { return cursor_.read_string(value, result_.mesh.name); }
+bool MeshReader::name() { return cursor_.read_string(result_.mesh.name); }
 
-bool MeshReader::points(Value value) {
+bool MeshReader::points() {
   Tuples tuples;
   has_points_ = true;
-  if (!read_tuples(cursor_, value, 3, 3, "point", tuples)) return false;
+  if (!read_tuples(cursor_, 3, 3, "point", tuples)) return false;
   result_.mesh.points = std::move(tuples.values);
   result_.form.points = tuples.form;
   return true;
 }
 
-bool MeshReader::face_vertex_counts(Value value) {
+bool MeshReader::face_vertex_counts() {
   has_counts_ = true;
-  return read_indices(cursor_, value, result_.mesh.face_vertex_counts);
+  return read_indices(cursor_, result_.mesh.face_vertex_counts);
 }
 
-bool MeshReader::face_vertex_indices(Value value) {
+bool MeshReader::face_vertex_indices() {
   has_faces_ = true;
-  return read_lists(cursor_, value, "face", faces_);
+  return read_lists(cursor_, "face", faces_);
 }
 
-bool MeshReader::subdivision_scheme(Value value) {
+bool MeshReader::subdivision_scheme() {
   static constexpr std::array<std::string_view, 1> kSchemes = {"loop"};
   std::size_t word = 0;
-  if (!cursor_.read_word(value, kSchemes, word)) return false;
+  if (!cursor_.read_word(kSchemes, word)) return false;
   result_.mesh.subdivision_scheme = kSchemes[word];
   return true;
 }
 
-bool MeshReader::interpolate_boundary(Value value) {
-  return read_option_word(cursor_, value, "interpolateBoundary", result_.mesh.interpolate_boundary);
+bool MeshReader::interpolate_boundary() {
+  return read_option_word(cursor_, "interpolateBoundary", result_.mesh.interpolate_boundary);
 }
 
-bool MeshReader::face_varying_linear_interpolation(Value value) {
-  return read_option_word(cursor_, value, "faceVaryingLinearInterpolation",
+bool MeshReader::face_varying_linear_interpolation() {
+  return read_option_word(cursor_, "faceVaryingLinearInterpolation",
                           result_.mesh.face_varying_linear_interpolation);
 }
 
-bool MeshReader::crease_indices(Value value) { return read_lists(cursor_, value, "crease", creases_); }
+bool MeshReader::crease_indices() { return read_lists(cursor_, "crease", creases_); }
 
-bool MeshReader::crease_lengths(Value value) {
+bool MeshReader::crease_lengths() {
   has_lengths_ = true;
-  return read_indices(cursor_, value, result_.mesh.crease_lengths);
+  return read_indices(cursor_, result_.mesh.crease_lengths);
 }
 
-bool MeshReader::crease_sharpnesses(Value value) {
-  return read_sharpnesses(cursor_, value, result_.mesh.crease_sharpnesses);
-}
+bool MeshReader::crease_sharpnesses() { return read_sharpnesses(cursor_, result_.mesh.crease_sharpnesses); }
 
-bool MeshReader::corner_indices(Value value) {
-  return read_indices(cursor_, value, result_.mesh.corner_indices);
-}
+bool MeshReader::corner_indices() { return read_indices(cursor_, result_.mesh.corner_indices); }
 
-bool MeshReader::corner_sharpnesses(Value value) {
-  return read_sharpnesses(cursor_, value, result_.mesh.corner_sharpnesses);
-}
+bool MeshReader::corner_sharpnesses() { return read_sharpnesses(cursor_, result_.mesh.corner_sharpnesses); }
 
-bool MeshReader::hole_indices(Value value) { return read_indices(cursor_, value, result_.mesh.hole_indices); }
+bool MeshReader::hole_indices() { return read_indices(cursor_, result_.mesh.hole_indices); }
 
-bool MeshReader::primvars(Value value) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor_.fail_type(value, "an object of primvars by name");
+bool MeshReader::primvars() {
+  if (!cursor_.open_object("an object of primvars by name")) return false;
   std::set<std::string> names;
-  for (auto field : object) {
-    std::string_view key;
-    Value one;
-    if (field.unescaped_key().get(key) || field.value().get(one)) return cursor_.fail_syntax();
+  std::string_view key;
+  for (Cursor::Members all(cursor_); all.next(key);) {
     if (!names.emplace(key).second) return cursor_.fail_twice(key);
     if (names.size() > kMostPrimvars)
       return cursor_.fail(ErrorCode::too_large, std::string("a mesh may have at most ") +
@@ -127,18 +118,18 @@ bool MeshReader::primvars(Value value) {
     primvar.name = key;
     const Cursor::Step step(cursor_, std::string_view(primvar.name));
     ArrayForm form = ArrayForm::flat;
-    if (!read_primvar(cursor_, one, primvar, form)) return false;
+    if (!read_primvar(cursor_, primvar, form)) return false;
     result_.mesh.primvars.push_back(std::move(primvar));
     result_.form.primvars.push_back(form);
   }
-  return true;
+  return !cursor_.failed();
 }
 
 // An answer fed back brings them: they are read, so that faults are found, and come anew from the surface.
-bool MeshReader::normals(Value value) {
+bool MeshReader::normals() {
   Tuples unused;
   result_.had_normals = true;
-  return read_tuples(cursor_, value, 3, 3, "normal", unused);
+  return read_tuples(cursor_, 3, 3, "normal", unused);
 }
 
 bool MeshReader::finish() {
@@ -163,12 +154,11 @@ bool MeshReader::finish() {
   return true;
 }
 
-bool read_mesh(Cursor& cursor, Value value, MeshRead& out) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor.fail_type(value, "a mesh, an object");
+bool read_mesh(Cursor& cursor, MeshRead& out) {
+  if (!cursor.open_object("a mesh, an object")) return false;
   MeshReader reader(cursor);
   std::bitset<MeshReader::kMembers> seen;
-  if (!cursor.read_members(object, MeshReader::members(), reader, seen) || !reader.finish()) return false;
+  if (!cursor.read_members(MeshReader::members(), reader, seen) || !reader.finish()) return false;
   out = reader.take();
   return true;
 }

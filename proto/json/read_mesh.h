@@ -26,8 +26,9 @@ struct MeshRead {
 struct CurvesRead {
   ControlCurves curves;
   std::optional<ControlPatch> surface;  // of type "bsplineSurface"; `curves` is empty then
-  ArrayForm form = ArrayForm::nested;   // of the points
-  bool had_tangents = false;            // they are not used
+  JsonCurvesForm form;
+  JsonSurfaceForm surface_form;  // its points are as those of `form`
+  bool had_tangents = false;     // they are not used
 };
 
 // Reads the members of a mesh one by one, in any order; finish() settles what depends on several of them.
@@ -42,21 +43,21 @@ class MeshReader {
   bool finish();
   MeshRead take() { return std::move(result_); }
 
-  bool name(Value value);
-  bool points(Value value);
-  bool face_vertex_counts(Value value);
-  bool face_vertex_indices(Value value);
-  bool subdivision_scheme(Value value);
-  bool interpolate_boundary(Value value);
-  bool face_varying_linear_interpolation(Value value);
-  bool crease_indices(Value value);
-  bool crease_lengths(Value value);
-  bool crease_sharpnesses(Value value);
-  bool corner_indices(Value value);
-  bool corner_sharpnesses(Value value);
-  bool hole_indices(Value value);
-  bool primvars(Value value);
-  bool normals(Value value);
+  bool name();
+  bool points();
+  bool face_vertex_counts();
+  bool face_vertex_indices();
+  bool subdivision_scheme();
+  bool interpolate_boundary();
+  bool face_varying_linear_interpolation();
+  bool crease_indices();
+  bool crease_lengths();
+  bool crease_sharpnesses();
+  bool corner_indices();
+  bool corner_sharpnesses();
+  bool hole_indices();
+  bool primvars();
+  bool normals();
 
  private:
   Cursor& cursor_;
@@ -81,30 +82,30 @@ class CurvesReader {
   // To be called standing in the curves, after the last member.
   bool finish();
 
-  bool name(Value value);
-  bool type(Value value);
-  bool basis(Value value);
-  bool degree(Value value);
-  bool wrap(Value value);
-  bool tension(Value value);
-  bool ratio(Value value);
-  bool spacing(Value value);
-  bool points(Value value);
-  bool curve_vertex_counts(Value value);
-  bool order(Value value);
-  bool knots(Value value);
-  bool ranges(Value value);
-  bool point_weights(Value value);
-  bool tangents(Value value);
-  bool u_vertex_count(Value value);
-  bool v_vertex_count(Value value);
-  bool u_degree(Value value);
-  bool v_degree(Value value);
-  bool u_wrap(Value value);
-  bool v_wrap(Value value);
-  bool face_vertex_counts(Value value);
-  bool face_vertex_indices(Value value);
-  bool normals(Value value);
+  bool name();
+  bool type();
+  bool basis();
+  bool degree();
+  bool wrap();
+  bool tension();
+  bool ratio();
+  bool spacing();
+  bool points();
+  bool curve_vertex_counts();
+  bool order();
+  bool knots();
+  bool ranges();
+  bool point_weights();
+  bool tangents();
+  bool u_vertex_count();
+  bool v_vertex_count();
+  bool u_degree();
+  bool v_degree();
+  bool u_wrap();
+  bool v_wrap();
+  bool face_vertex_counts();
+  bool face_vertex_indices();
+  bool normals();
 
  private:
   // Those that belong to some kinds of curves only.
@@ -138,10 +139,10 @@ class CurvesReader {
   bool check_members();
   bool settle_type();
   bool settle_surface();
-  bool read_word(Value value, std::span<const std::string_view> words, std::optional<std::size_t>& out);
-  bool read_wrap(Value value, CurveWrap& out);
-  bool read_number(Value value, double& out);
-  bool read_numbers(Value value, std::vector<double>& out);
+  bool read_word(std::span<const std::string_view> words, std::optional<std::size_t>& out);
+  bool read_wrap(CurveWrap& out);
+  bool read_number(double& out);
+  bool read_numbers(std::vector<double>& out);
 
   Cursor& cursor_;
   CurvesRead& out_;
@@ -151,8 +152,8 @@ class CurvesReader {
   std::bitset<static_cast<std::size_t>(Part::count)> given_;
 };
 
-bool read_mesh(Cursor& cursor, Value value, MeshRead& out);
-bool read_curves(Cursor& cursor, Value value, CurvesRead& out);
-bool read_surface(Cursor& cursor, Value value, CurvesRead& out);
+bool read_mesh(Cursor& cursor, MeshRead& out);
+bool read_curves(Cursor& cursor, CurvesRead& out);
+bool read_surface(Cursor& cursor, CurvesRead& out);
 
 }  // namespace subdivd::proto::json

@@ -18,27 +18,27 @@ class PrimvarReader {
              {"indices", &PrimvarReader::indices}}};
   }
 
-  bool interpolation(Value value) {
+  bool interpolation() {
     std::size_t word = 0;
-    if (!cursor_.read_word(value, interpolation_words(), word)) return false;
+    if (!cursor_.read_word(interpolation_words(), word)) return false;
     out_.interpolation = static_cast<Interpolation>(word);
     return true;
   }
 
-  bool element_size(Value value) {
-    if (!read_whole_number(cursor_, value, size_)) return false;
+  bool element_size() {
+    if (!read_whole_number(cursor_, size_)) return false;
     if (size_ >= 1 && size_ <= kMaxElementSize) return true;
     return cursor_.fail(ErrorCode::out_of_range, std::string("this is ") + std::to_string(size_) +
                                                      "; it must be from 1 to " +
                                                      std::to_string(kMaxElementSize));
   }
 
-  bool values(Value value) {
+  bool values() {
     has_values_ = true;
-    return read_tuples(cursor_, value, 0, kMaxElementSize, "value", tuples_);
+    return read_tuples(cursor_, 0, kMaxElementSize, "value", tuples_);
   }
 
-  bool indices(Value value) { return read_indices(cursor_, value, out_.indices); }
+  bool indices() { return read_indices(cursor_, out_.indices); }
 
   bool finish(ArrayForm& form) {
     if (!has_values_) return cursor_.fail(ErrorCode::missing_field, "a primvar needs values", {"values"});
@@ -70,12 +70,11 @@ class PrimvarReader {
 
 }  // namespace
 
-bool read_primvar(Cursor& cursor, Value value, Primvar& out, ArrayForm& form) {
-  simdjson::ondemand::object object;
-  if (value.get_object().get(object)) return cursor.fail_type(value, "a primvar, an object");
+bool read_primvar(Cursor& cursor, Primvar& out, ArrayForm& form) {
+  if (!cursor.open_object("a primvar, an object")) return false;
   PrimvarReader reader(cursor, out);
   std::bitset<PrimvarReader::kMembers> seen;
-  return cursor.read_members(object, PrimvarReader::members(), reader, seen) && reader.finish(form);
+  return cursor.read_members(PrimvarReader::members(), reader, seen) && reader.finish(form);
 }
 
 }  // namespace subdivd::proto::json

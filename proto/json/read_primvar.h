@@ -8,6 +8,6 @@
 namespace subdivd::proto::json {
 
 // Fills everything but the name. `form` is that of `values`.
-bool read_primvar(Cursor& cursor, Value value, Primvar& out, ArrayForm& form);
+bool read_primvar(Cursor& cursor, Primvar& out, ArrayForm& form);
 
 }  // namespace subdivd::proto::json

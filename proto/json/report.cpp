@@ -8,6 +8,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 // JSON has no infinity and no NaN: null stands for both.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -67,17 +69,29 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
 
 }  // namespace
 
+// Part by part: as one tree many meshes would take ten times their text.
 std::string report(const oracle::Report& report, const RefineRequest* request) {
-  Json json = {{"oracle", report.oracle}, {"passed", report.passed}};
+  Json head = {{"oracle", report.oracle}, {"passed", report.passed}};
+  std::string text = dumped(head);
+  text.pop_back();
   static const std::vector<Index> kSame;
-  for (std::size_t i = 0; i < report.meshes.size(); ++i) {
+  const auto add = [&](const char* name, const auto& parts, const auto& faces_of) {
+    if (parts.empty()) return;
+    text.append(",\"").append(name).append("\":[");
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (i > 0) text += ',';
+      text += dumped(one_report(parts[i], faces_of(i)));
+    }
+    text += ']';
+  };
+  const auto same = [](std::size_t) -> const std::vector<Index>& { return kSame; };
+  add("meshes", report.meshes, [&](std::size_t i) -> const std::vector<Index>& {
     const bool moved = request != nullptr && i < request->face_origins.size();
-    json["meshes"].push_back(one_report(report.meshes[i], moved ? request->face_origins[i] : kSame));
-  }
-  for (const oracle::CurveReport& curve : report.curves) json["curves"].push_back(one_report(curve, kSame));
-  for (const oracle::SurfaceReport& surface : report.surfaces)
-    json["surfaces"].push_back(one_report(surface, kSame));
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return moved ? request->face_origins[i] : kSame;
+  });
+  add("curves", report.curves, same);
+  add("surfaces", report.surfaces, same);
+  return text + '}';
 }
 
 }  // namespace subdivd::proto::json

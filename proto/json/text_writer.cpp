@@ -20,6 +20,12 @@ std::string quoted_json(std::string_view text) {
 }
 
 void TextWriter::flush(std::size_t bytes) {
+  if (!stopped_) stopped_ = budget_.poll();
+  if (stopped_) {  // what has been written is of no use
+    chunks_.clear();
+    used_ = 0;
+    if (size_ >= bytes) return;
+  }
   if (used_ > 0) {
     last_ = buffer_[used_ - 1];
     const auto text = std::as_bytes(std::span(buffer_.get(), used_));
@@ -36,10 +42,14 @@ void TextWriter::raw(std::string_view text) {
   used_ += text.size();
 }
 
-void TextWriter::number(double value) {
+template <class Number>
+void TextWriter::scalar(Number value) {
   char* const begin = room(kLongestNumber);
   used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
 }
+void TextWriter::number(double value) { scalar(value); }
+void TextWriter::number(float value) { scalar(value); }
+void TextWriter::number(std::uint64_t value) { scalar(value); }
 
 void TextWriter::separate() {
   const char before = used_ > 0 ? buffer_[used_ - 1] : last_;
@@ -57,7 +67,7 @@ std::size_t TextWriter::array(std::span<const Number> values, std::size_t width,
   const bool nested = form == ArrayForm::nested;
   raw("[");
   std::size_t in_tuple = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size() && !stopped_; ++i) {
     if constexpr (std::is_floating_point_v<Number>)
       if (!std::isfinite(values[i])) return i;
     char* const begin = room(kLongestNumber + 4);

@@ -3,12 +3,15 @@
 // size. Numbers are written with std::to_chars, the shortest text that reads back to the same bits.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
 #include "proto/wire.h"
 
@@ -21,6 +24,10 @@ class TextWriter {
  public:
   static constexpr std::size_t kAllFinite = static_cast<std::size_t>(-1);
 
+  // Polls `budget`, which must outlive it, at every chunk; stopped, it writes no more, and says why.
+  explicit TextWriter(const Budget& budget = kUnlimited) : budget_(budget) {}
+  const std::optional<Error>& stopped() const { return stopped_; }
+
   void raw(std::string_view text);
   // The comma before a member or an element, unless it is the first.
   void separate();
@@ -28,6 +35,8 @@ class TextWriter {
   void string(std::string_view text) { raw(quoted_json(text)); }
 
   void number(double value);  // finite
+  void number(float value);
+  void number(std::uint64_t value);
 
   void open(char bracket) { raw(std::string_view(&bracket, 1)); }
   void close(char bracket) { raw(std::string_view(&bracket, 1)); }
@@ -41,6 +50,10 @@ class TextWriter {
   std::vector<Chunk> finish();
 
  private:
+  static inline const Budget kUnlimited{};
+
+  template <class Number>
+  void scalar(Number value);
   template <class Number>
   std::size_t array(std::span<const Number> values, std::size_t width, ArrayForm form);
   // Makes room for `bytes` more and returns where they go.
@@ -50,6 +63,8 @@ class TextWriter {
   }
   void flush(std::size_t bytes);
 
+  const Budget& budget_;
+  std::optional<Error> stopped_;
   std::vector<Chunk> chunks_;
   std::shared_ptr<char[]> buffer_;  // of size_ bytes, unset beyond used_
   std::size_t size_ = 0, used_ = 0, next_size_ = 1 << 14;

@@ -11,8 +11,8 @@ namespace {
 template <class Real>
 class AnswerWriter {
  public:
-  AnswerWriter(const RefineRequest& request, RefineAnswer<Real> answer)
-      : request_(request), answer_(std::move(answer)) {}
+  AnswerWriter(const RefineRequest& request, RefineAnswer<Real> answer, const Budget& budget)
+      : request_(request), answer_(std::move(answer)), text_(budget) {}
 
   Result<Payload> write(std::string_view envelope) {
     const bool nothing = answer_.meshes.empty() && answer_.curves.empty() && answer_.surfaces.empty();
@@ -23,12 +23,14 @@ class AnswerWriter {
                 nothing && request_.without_meshes, [&](std::size_t i) { write_curves(i); });
     write_parts("surfaces", answer_.surfaces.size(), request_.single_surface_at_top, false,
                 [&](std::size_t i) { write_surface(i); });
+    if (text_.stopped()) return *text_.stopped();
     if (error_) return *error_;
     if (envelope != "{}") text_.separate();
     text_.raw(envelope.substr(1));  // the rest of an object, closing brace included
     Payload payload;
     payload.content_type = "application/json";
     payload.chunks = text_.finish();
+    if (text_.stopped()) return *text_.stopped();
     return payload;
   }
 
@@ -40,7 +42,7 @@ class AnswerWriter {
     if (at_top && count == 1) return write_one(0);
     text_.key(name);
     text_.open('[');
-    for (std::size_t i = 0; i < count && !error_; ++i) {
+    for (std::size_t i = 0; i < count && !error_ && !text_.stopped(); ++i) {
       text_.separate();
       text_.open('{');
       write_one(i);
@@ -108,8 +110,9 @@ class AnswerWriter {
   }
 
   // A flat array would be read back as points of three numbers.
-  static ArrayForm form_of(Index width, const std::vector<ArrayForm>& forms, std::size_t i) {
-    return width != 3 || i >= forms.size() ? ArrayForm::nested : forms[i];
+  template <class Form>
+  static ArrayForm form_of(Index width, const std::vector<Form>& forms, std::size_t i) {
+    return width != 3 || i >= forms.size() ? ArrayForm::nested : forms[i].points;
   }
 
   void write_curves(std::size_t i) {
@@ -205,15 +208,16 @@ class AnswerWriter {
 }  // namespace
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, const Budget& budget) {
-  const std::string members = envelope(request, answer);
-  return write(request, std::move(answer), members, budget);
+  const Result<std::string> members = envelope(request, answer, budget);
+  if (!members) return members.error();
+  return write(request, std::move(answer), *members, budget);
 }
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::string_view members,
-                      [[maybe_unused]] const Budget& budget) {
+                      const Budget& budget) {
   return std::visit(
       [&]<class Real>(RefineAnswer<Real>& typed) {
-        return AnswerWriter<Real>(request, std::move(typed)).write(members);
+        return AnswerWriter<Real>(request, std::move(typed), budget).write(members);
       },
       answer);
 }

@@ -9,8 +9,8 @@
 
 namespace subdivd::server {
 
-// Bytes that answering will take at most, beside the body: to be reserved before anything is computed.
-// too_large over `most`, the bytes of an answer.
+// Bytes that the answer and its text will take at most: to be reserved before anything is computed. What is
+// needed to compute it, compute_...() take from their budget. too_large over `most`, the bytes of an answer.
 Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most);
 
 // The curves, or the surfaces, at the parameters of the request. Curves without a formula have a point and a

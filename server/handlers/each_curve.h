@@ -12,12 +12,25 @@
 #include "core/splines/arc_length.h"
 #include "proto/curve_task.h"
 #include "proto/prepare.h"
+#include "server/handlers/reused_memory.h"
 
 namespace subdivd::server {
 
 // What one curve may take: a smooth one far less, one of many spans in proportion.
 inline Count most_polyline_points(Count points) { return std::max(Count{1} << 16, 64 * points); }
 inline Count most_length_pieces(Count points) { return std::max(LengthOptions{}.max_pieces, 16 * points); }
+
+// Bytes while a curve is made into a spline, and while that is brought into coordinates of its own: copies of
+// its points and knots, which grow, and of curves by pieces the pieces.
+inline Count spline_bytes(const ControlCurves& curves, Count curve) {
+  constexpr Count kCopies = 10, kPiece = 256;
+  const Count points = curves.points_of_curve(curve) + kMaxDegree + 1, width = curves.width;
+  const bool by_pieces = curves.basis == CurveBasis::bezier || curves.basis == CurveBasis::catmull_rom ||
+                         curves.basis == CurveBasis::hermite;
+  const Count numbers = points * (width + 2) * (by_pieces ? 3 : 1);
+  return numbers * kCopies * sizeof(double) +
+         (by_pieces ? points * (kPiece + 4 * width * sizeof(double)) : 0);
+}
 
 // An error about something beside the curves: its place is a member of the body.
 inline Error at_member(Error error, const char* member, std::optional<std::uint64_t> index = {}) {
@@ -27,15 +40,17 @@ inline Error at_member(Error error, const char* member, std::optional<std::uint6
 }
 
 // Calls work(curve, set, ordinal) for what make(curves, ordinal, place) makes of every curve, in the order of
-// the body; what cannot be made is blamed on its set of curves.
+// the body; what cannot be made is blamed on its set of curves. `memory` gives the budget for one curve.
 template <class Make, class Work>
-Result<void> for_each_curve(const proto::CurveRequest& request, const Budget& budget, Make&& make,
+Result<void> for_each_curve(const proto::CurveRequest& request, ReusedMemory& memory, Make&& make,
                             Work&& work) {
   for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
     const ControlCurves& curves = request.curves.curves[i];
     CurvePlace place;
     for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
-      if (auto stop = budget.poll()) return *stop;
+      if (auto stop = memory.budget().poll()) return *stop;
+      memory.free_all();
+      if (auto taken = memory.budget().take_memory(spline_bytes(curves, c)); !taken) return taken;
       auto curve = make(curves, c, place);
       if (!curve) return proto::blame_input(request.curves, std::move(curve).error(), "curves", i);
       if (auto done = work(*std::move(curve), i, c); !done) return done;

@@ -225,7 +225,9 @@ class Collector {
 
 }  // namespace
 
-Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& budget) {
+Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& whole) {
+  ReusedMemory memory(whole);
+  const Budget& budget = memory.budget();
   Collector collector(request, budget);
   const auto on_knots = [](const ControlCurves& curves, Count curve, CurvePlace place) {
     return spline_of(curves, curve, place);
@@ -237,7 +239,7 @@ Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& b
     const double tolerance = request.task.tolerance.value_or(1e-10 * extent(spline));
     return collector.add(*std::move(changed), removed, tolerance, set);
   };
-  if (auto done = for_each_curve(request, budget, on_knots, edit); !done) return std::move(done).error();
+  if (auto done = for_each_curve(request, memory, on_knots, edit); !done) return std::move(done).error();
   return collector.finish();
 }
 

@@ -198,7 +198,7 @@ Response GeometryHandlers::verify(Request& request) {
     const auto report = compute_report(*decoded, budget);
     if (!report) return report.error();
     phases.end("verify");
-    auto payload = proto::encode_report(*decoded, *report, {});
+    auto payload = proto::encode_report(*decoded, *report, budget);
     if (!payload) return std::move(payload).error();
     phases.end("write");
     return payload_response(*std::move(payload), phases);

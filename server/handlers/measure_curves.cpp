@@ -18,6 +18,7 @@ constexpr double kLengthTolerance = 1e-9;
 
 Result<void> measure_closest(const Spline& spline, const CurveTask& task, const Budget& budget,
                              CurveMeasure& measure) {
+  measure.closest.reserve(task.closest_to.size() / std::max<Index>(task.closest_width, 1));
   if (!task.closest_to.empty() && task.closest_width != spline.dimension())
     return Error{ErrorCode::wrong_length,
                  "the points have " + std::to_string(task.closest_width) +
@@ -45,7 +46,7 @@ Result<Polyline> flattened(const Curve& drawn, const ControlCurves& curves, Coun
 }
 
 // What has no formula has a polyline, and that only.
-Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve,
+Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve, Count,
                               const CurveTask& task, const Budget& budget) {
   if (!task.flatten || task.equal_lengths || task.convergence || !task.closest_to.empty())
     return Error{
@@ -61,7 +62,8 @@ Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves&
   return measure;
 }
 
-Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve,
+// `first`: where the points of the curve begin.
+Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve, Count first,
                               const CurveTask& task, const Budget& budget) {
   CurveMeasure measure;
   auto length = arc_length(spline,
@@ -88,7 +90,8 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
     measure.equal_parameters = *std::move(parameters);
   }
   if (task.convergence) {
-    auto convergence = measure_convergence(curves, static_cast<Index>(curve), *task.convergence, budget);
+    auto convergence =
+        measure_convergence(curves, static_cast<Index>(curve), first, *task.convergence, budget);
     if (!convergence) return at_member(std::move(convergence).error(), "convergence");
     measure.convergence = *std::move(convergence);
   }
@@ -99,17 +102,24 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
 
 Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, const Budget& budget) {
   std::vector<CurveMeasure> all;
+  ReusedMemory memory(budget);
+  Count first = 0;  // of the points of the present curve
   const auto measure = [&](const DrawnCurve& curve, std::size_t set, Count ordinal) -> Result<void> {
     const ControlCurves& curves = request.curves.curves[set];
+    if (ordinal == 0) first = 0;
     auto one = std::visit(
-        [&](const auto& drawn) { return measured(drawn, curves, ordinal, request.task, budget); }, curve);
+        [&](const auto& drawn) {
+          return measured(drawn, curves, ordinal, first, request.task, memory.budget());
+        },
+        curve);
+    first += curves.points_of_curve(ordinal);
     if (!one && one.error().where == Path{"basis"})
       return proto::blame_input(request.curves, std::move(one).error(), "curves", set);
     if (!one) return std::move(one).error();
     all.push_back(*std::move(one));
     return {};
   };
-  if (auto done = for_each_curve(request, budget, drawn, measure); !done) return std::move(done).error();
+  if (auto done = for_each_curve(request, memory, drawn, measure); !done) return std::move(done).error();
   return all;
 }
 

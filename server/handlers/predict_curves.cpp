@@ -65,12 +65,24 @@ Count numbers_of(const CurveRequest& request) {
   return numbers;
 }
 
+// Beside the numbers: what every curve has of its own, in vectors that grow, and every point to come close
+// to.
+Count bytes_beside(const CurveRequest& request) {
+  constexpr Count kOfCurve = 1536, kOfClosestPoint = 160;
+  Count curves = 0, bytes = 0;
+  for (const ControlCurves& set : request.curves.curves) curves += set.curve_count();
+  bytes += kOfCurve * curves;
+  if (request.task.closest_width > 0)
+    bytes += curves * (request.task.closest_to.size() / request.task.closest_width) * kOfClosestPoint;
+  return bytes;
+}
+
 }  // namespace
 
 Result<Count> predict_curve_task(const CurveRequest& request, Count most) {
   constexpr Count kTextOfNumber = 26, kBytesOfNumber = 64;
   const Count numbers = numbers_of(request);
-  if (numbers * kTextOfNumber <= most) return numbers * kBytesOfNumber;
+  if (numbers * kTextOfNumber <= most) return numbers * kBytesOfNumber + bytes_beside(request);
   return Error{ErrorCode::too_large,
                "the answer would take up to " + std::to_string(numbers * kTextOfNumber) + " bytes; " +
                    std::to_string(most) + " are allowed: ask for less, or for fewer curves",

@@ -11,6 +11,7 @@
 #include "proto/prepare.h"
 #include "server/handlers/compute_curves.h"
 #include "server/handlers/drawn_curve.h"
+#include "server/handlers/each_curve.h"
 
 namespace subdivd::server {
 namespace {
@@ -115,6 +116,13 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
   const CurveTask& task = request.task;
   const std::vector<Located> all = all_curves(request);
   CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
+  samples.widths.reserve(task.sample_ts.size());
+  samples.rows.reserve(task.sample_ts.size());
+  if (task.frames) {
+    samples.frames.reserve(task.sample_ts.size());
+    samples.curvatures.reserve(task.sample_ts.size());
+    samples.torsions.reserve(task.sample_ts.size());
+  }
   Sampler sampler(task, samples);
   std::vector<std::optional<DrawnCurve>> curves(all.size());  // of those that have been asked for
   for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
@@ -125,6 +133,8 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
     std::optional<DrawnCurve>& curve = curves[number];
     if (!curve) {
       const auto& [set, ordinal, place] = all[number];
+      const Count bytes = spline_bytes(request.curves.curves[set], ordinal);
+      if (auto taken = budget.take_memory(bytes); !taken) return taken.error();
       auto made = drawn(request.curves.curves[set], ordinal, place);
       if (!made) return proto::blame_input(request.curves, std::move(made).error(), "curves", set);
       curve = *std::move(made);
@@ -142,6 +152,7 @@ Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& reques
   const CurveTask& task = request.task;
   const std::vector<ControlPatch>& surfaces = request.curves.surfaces;
   proto::SurfaceSamples samples;
+  samples.samples.reserve(task.sample_us.size());
   for (std::size_t k = 0; k < task.sample_us.size(); ++k) {
     if (k % kSamplesPerPoll == 0)
       if (auto stop = budget.poll()) return *stop;

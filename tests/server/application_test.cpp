@@ -77,6 +77,26 @@ TEST(Application, answers_glb_when_accept_wants_it) {
   const RunningApplication server;
   EXPECT_EQ(server.refine("?level=1", "Accept: model/gltf-binary\r\n").body.substr(0, 4), "glTF");
 }
+// Bodies once carried milliseconds, so that no two answers were equal and nothing could be cached.
+TEST(Application, answers_equal_requests_with_equal_bytes) {
+  const RunningApplication server;
+  const std::string curve = R"({"points":[[0,0],[1,1],[2,0],[3,1]])";
+  const std::pair<const char*, std::string> requests[] = {
+      {"/v1/refine?level=2", kTetrahedron},
+      {"/v1/refine?level=2&verify=true", kTetrahedron},
+      {"/v1/refine?level=2&format=glb", kTetrahedron},
+      {"/v1/refine?level=2&format=gltf&verify=true", kTetrahedron},
+      {"/v1/verify", kTetrahedron},
+      {"/v1/curves/refine", curve + "}"},
+      {"/v1/curves/measure", curve + "}"},
+  };
+  for (const auto& [target, body] : requests) {
+    const RawResponse first = ask(server.port, post(target, body)),
+                      second = ask(server.port, post(target, body));
+    EXPECT_EQ(first.status, 200) << target << first.body;
+    EXPECT_EQ(first.body, second.body) << target;
+  }
+}
 TEST(Application, refines_its_own_glb) {
   const RunningApplication server;
   const std::string glb = server.refine("?level=1&format=glb").body;

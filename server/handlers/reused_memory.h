@@ -1,0 +1,33 @@
+#pragma once
+// Memory that one curve after the other takes and gives back. A grant only ever grows; asked for every curve
+// anew it would count the same bytes again and again.
+
+#include "core/base/budget.h"
+
+namespace subdivd::server {
+
+class ReusedMemory final : public MemoryGrant {
+ public:
+  explicit ReusedMemory(const Budget& budget) : outer_(budget), inner_(budget) {
+    if (budget.memory != nullptr) inner_.memory = this;
+  }
+
+  // What was taken since the last call is free again.
+  void free_all() { used_ = 0; }
+  Result<void> take(Count bytes) override {
+    used_ += bytes;
+    if (used_ <= most_) return {};
+    const Count more = used_ - most_;
+    most_ = used_;
+    return outer_.take_memory(more);
+  }
+  // The budget for work on one curve. Must not outlive this.
+  const Budget& budget() const { return inner_; }
+
+ private:
+  const Budget& outer_;
+  Budget inner_;
+  Count used_ = 0, most_ = 0;
+};
+
+}  // namespace subdivd::server
