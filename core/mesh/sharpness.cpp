@@ -24,6 +24,16 @@ std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology& topolog
   return edges;
 }
 
+DecaySum sum_of(std::span<const float> around, const Pace& pace) {
+  DecaySum all;
+  pace.for_each(around.size(), [&](std::size_t k) {
+    if (!is_semi_sharp(around[k])) return;
+    all.sum += around[k];
+    ++all.count;
+  });
+  return all;
+}
+
 bool inside_non_manifold_crease(const Topology& topology, Index v, const Pace& pace) {
   Index non_manifold = 0, boundary = 0;
   for (Index e : topology.vertex_edges(v)) {
@@ -56,25 +66,26 @@ float decay(float s) {
   return s > 1 ? s - 1 : 0;
 }
 
+float decay_beside(float s, DecaySum all) {
+  if (all.count < 2 || !is_semi_sharp(s)) return decay(s);
+  const float mean_of_others = (all.sum - s) / static_cast<float>(all.count - 1);
+  return std::max(0.75f * s + 0.25f * mean_of_others - 1.0f, 0.0f);
+}
+
 void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child,
                          const Pace& pace) {
-  float sum = 0;
-  Index count = 0;
-  if (method == CreaseMethod::chaikin)
-    pace.for_each(parent.size(), [&](std::size_t k) {
-      if (!is_semi_sharp(parent[k])) return;
-      sum += parent[k];
-      ++count;
-    });
-  pace.for_each(parent.size(), [&](std::size_t k) {
-    const float s = parent[k];
-    if (count < 2 || !is_semi_sharp(s)) {
-      child[k] = decay(s);
-    } else {
-      const float mean_of_others = (sum - s) / static_cast<float>(count - 1);
-      child[k] = std::max(0.75f * s + 0.25f * mean_of_others - 1.0f, 0.0f);
-    }
-  });
+  DecaySum all;
+  if (method == CreaseMethod::chaikin) all = sum_of(parent, pace);
+  pace.for_each(parent.size(), [&](std::size_t k) { child[k] = decay_beside(parent[k], all); });
+}
+
+std::vector<DecaySum> decay_sums(std::vector<float> around, const Pace& pace) {
+  std::vector<DecaySum> sums;
+  for (DecaySum all = sum_of(around, pace); all.count > 0; all = sum_of(around, pace)) {
+    sums.push_back(all);
+    pace.for_each(around.size(), [&](std::size_t k) { around[k] = decay_beside(around[k], all); });
+  }
+  return sums;
 }
 
 float fractional_weight(CreaseMethod method, float parent_vertex, float child_vertex,

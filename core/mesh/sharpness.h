@@ -34,6 +34,16 @@ float decay(float s);
 void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child,
                          const Pace& pace = {});
 
+// What Chaikin's rule has to know of all edges at a vertex to decay one of them: the sum and the number of the
+// semi-sharp ones. The way of one that is semi-sharp, one level on.
+struct DecaySum {
+  float sum = 0;
+  Index count = 0;
+};
+float decay_beside(float s, DecaySum all);
+// Those sums at this level and the following ones, until nothing at the vertex is semi-sharp: at most 10.
+std::vector<DecaySum> decay_sums(std::vector<float> around, const Pace& pace = {});
+
 // Weight of the parent's rule where parent and child differ: the mean of the sharpnesses that run out at this
 // step, at most 1.
 float fractional_weight(CreaseMethod method, float parent_vertex, float child_vertex,

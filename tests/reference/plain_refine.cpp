@@ -128,7 +128,9 @@ class Refinement {
         std::copy_n(frames[0].u, 3, out.tangents_u.data() + at);
         std::copy_n(frames[0].v, 3, out.tangents_v.data() + at);
       }
-      if (options_.normals) mean_normal<Real>(frames, out.normals.data() + at);
+      FrameMean<Real> mean;
+      for (const Frame<Real>& frame : frames) mean.add(frame);
+      if (options_.normals) mean.normal(out.normals.data() + at);
     });
   }
 
