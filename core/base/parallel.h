@@ -18,6 +18,11 @@
 
 namespace subdivd {
 
+// Thrown by work that is to stop (pace.h); the error is empty where a team knows it.
+struct Stopped {
+  Error error;
+};
+
 // [begin, end)
 struct Range {
   Count begin = 0, end = 0;
@@ -97,6 +102,8 @@ class Team {
   void guarded(Work& work, Worker worker) {
     try {
       work(worker);
+    } catch (const Stopped&) {
+      barrier_->arrive_and_drop();  // the others stop, too
     } catch (...) {
       {
         const std::lock_guard lock(mutex_);

@@ -45,17 +45,17 @@ void normalize(Real vector[3]) {
 }
 
 template <class Real>
-void mean_normal(std::span<const Frame<Real>> frames, Real out[3]) {
-  out[0] = out[1] = out[2] = 0;
-  if (frames.size() == 1) {
-    std::copy_n(frames[0].normal, 3, out);
-    return;
-  }
-  for (const Frame<Real>& frame : frames)
-    for (int k = 0; k < 3; ++k) out[k] += frame.normal[k];
+void FrameMean<Real>::add(const Frame<Real>& frame) {
+  if (count_++ == 0) first_ = frame;
+  for (int k = 0; k < 3; ++k) sum_[k] += frame.normal[k];
+}
+
+template <class Real>
+void FrameMean<Real>::normal(Real out[3]) const {
+  std::copy_n(count_ == 1 ? first_.normal : sum_, 3, out);
+  if (count_ <= 1) return;
   // Opposite sides cancel up to rounding: no direction is better than a random one.
-  if (std::sqrt(dot(out, out)) <=
-      16 * std::numeric_limits<Real>::epsilon() * static_cast<Real>(frames.size()))
+  if (std::sqrt(dot(out, out)) <= 16 * std::numeric_limits<Real>::epsilon() * static_cast<Real>(count_))
     out[0] = out[1] = out[2] = 0;
   normalize(out);
 }
@@ -91,40 +91,44 @@ bool set_normal(Frame<Real>& frame) {
 template <class Real>
 void gather_decay(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v, Ring<Real>& ring) {
   const Index h0 = own.topology.vertex_corners(v)[0];
-  const auto around = mesh.topology.vertex_edges(mesh.topology.corner_vertex(h0));
-  auto sharpness_of = [&](std::span<const Index> edges) {
+  const Index mesh_vertex = mesh.topology.corner_vertex(h0);
+  auto sharpness_around = [&](Index vertex) {
     std::vector<float> result;
-    for (Index e : edges) result.push_back(mesh.sharpness.edges[e]);
+    for (Index e : mesh.topology.vertex_edges(vertex)) result.push_back(mesh.sharpness.edges[e]);
     return result;
   };
-  const Positions in_around(around);
-  ring.around = sharpness_of(around);
+  const bool together = method == CreaseMethod::chaikin;
+  if (together) ring.around = decay_sums(sharpness_around(mesh_vertex));
   for (Index e : own.topology.vertex_edges(v)) {
-    const Index in_mesh = mesh.topology.half_edge_edge(own.topology.edge_half_edges(e)[0]);
-    ring.in_mesh.push_back(in_around(in_mesh));
-    if (is_infinite(own.sharpness.edges[e])) {
-      ring.far_child.push_back(kInfiniteSharpness);
-      continue;
+    const float sharpness = own.sharpness.edges[e];
+    DecaySum at_end;
+    if (together && !is_infinite(sharpness)) {
+      const Index in_mesh = mesh.topology.half_edge_edge(own.topology.edge_half_edges(e)[0]);
+      const auto sums = decay_sums(sharpness_around(mesh.topology.other_end(in_mesh, mesh_vertex)));
+      if (!sums.empty()) at_end = sums[0];
     }
-    const auto at_end =
-        mesh.topology.vertex_edges(mesh.topology.other_end(in_mesh, mesh.topology.corner_vertex(h0)));
-    const std::vector<float> parent = sharpness_of(at_end);
-    std::vector<float> child(parent.size());
-    decay_around_vertex(method, parent, child);
-    ring.far_child.push_back(
-        child[static_cast<std::size_t>(std::ranges::find(at_end, in_mesh) - at_end.begin())]);
+    ring.far_child.push_back(decay_beside(sharpness, at_end));
   }
 }
 
 template <class Real>
-void Ring<Real>::set_faces(const Topology& topology, Index v) {
-  const Positions in_ring(topology.vertex_edges(v));
+void Ring<Real>::set_faces(const Topology& topology, Index v, const Pace& pace) {
+  const Positions in_ring(topology.vertex_edges(v), pace);
   auto position = [&](Index h) { return static_cast<Index>(in_ring(topology.half_edge_edge(h))); };
-  for (Index h : topology.vertex_corners(v)) wedges.push_back({position(h), position(Topology::prev(h))});
-  auto passable = [&](Index e) { return !is_infinite(edge_sharpness[in_ring(e)]); };
-  for (const Topology::Fan& fan : topology.fans(v, passable)) {
+  for (Index h : topology.vertex_corners(v)) {
+    pace.spend(16);
+    wedges.push_back({position(h), position(Topology::prev(h))});
+  }
+  auto passable = [&](Index e) {
+    pace.spend(8);
+    return !is_infinite(edge_sharpness[in_ring(e)]);
+  };
+  for (const Topology::Fan& fan : topology.fans(v, passable, pace)) {
     Sector sector{{}, fan.closed};
-    for (Index h : fan.corners) sector.edges.push_back(position(h));
+    for (Index h : fan.corners) {
+      pace.spend(8);
+      sector.edges.push_back(position(h));
+    }
     if (!fan.closed) sector.edges.push_back(position(Topology::prev(fan.corners.back())));
     sectors.push_back(std::move(sector));
   }
@@ -151,10 +155,12 @@ Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Ind
 }
 
 template <class Scheme, class Real>
-LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring)
-    : scheme_(scheme), method_(method), ring_(std::move(ring)) {
+LimitRing<Scheme, Real>::LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring,
+                                   const Pace& pace)
+    : scheme_(scheme), method_(method), ring_(std::move(ring)), pace_(pace) {
   if (ring_.wedges.empty()) return;  // a point without faces stays, sharp or not
-  while (!settled()) step();
+  for (std::size_t level = 0; !settled(); ++level) step(level);
+  rule_ = rule_of(ring_.vertex_sharpness, ring_.edge_sharpness);
 }
 
 template <class Scheme, class Real>
@@ -162,23 +168,40 @@ bool LimitRing<Scheme, Real>::settled() const {
   return !is_semi_sharp(ring_.vertex_sharpness) && std::ranges::none_of(ring_.edge_sharpness, is_semi_sharp);
 }
 
+// Per edge of the ring: its faces, and the sum of the points opposite to it in them.
+template <class Scheme, class Real>
+std::vector<Index> LimitRing<Scheme, Real>::count_faces() const {
+  std::vector<Index> counts(ring_.edge_sharpness.size(), 0);
+  pace_.for_each(ring_.wedges.size(), [&](std::size_t k) {
+    ++counts[ring_.wedges[k].from];
+    ++counts[ring_.wedges[k].to];
+  });
+  return counts;
+}
+template <class Scheme, class Real>
+std::vector<Real> LimitRing<Scheme, Real>::sum_opposite() const {
+  std::vector<Real> sums(ring_.neighbors.size(), Real(0));
+  const auto add = [&](Index edge, Index across) {
+    for (Index c = 0; c < ring_.width; ++c)
+      sums[std::size_t{edge} * ring_.width + c] += ring_.neighbors[std::size_t{across} * ring_.width + c];
+  };
+  for (const auto& wedge : ring_.wedges) {
+    pace_.spend(1 + ring_.width / 2);
+    add(wedge.from, wedge.to);
+    add(wedge.to, wedge.from);
+  }
+  return sums;
+}
+
 // One level of refinement of the ring: its own values from its own values.
 template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::step() {
+void LimitRing<Scheme, Real>::step(std::size_t level) {
   const std::size_t n = ring_.edge_sharpness.size();
-  std::vector<float> around(ring_.around.size()), near_child(n);
-  decay_around_vertex(method_, ring_.around, around);
-  for (std::size_t k = 0; k < n; ++k)
-    near_child[k] = is_infinite(ring_.edge_sharpness[k]) ? kInfiniteSharpness : around[ring_.in_mesh[k]];
-  std::vector<Index> face_counts(n, 0);
-  std::vector<Real> opposite(ring_.neighbors.size(), Real(0));
-  for (const auto& wedge : ring_.wedges)
-    for (auto [edge, across] : {std::pair{wedge.from, wedge.to}, std::pair{wedge.to, wedge.from}}) {
-      ++face_counts[edge];
-      for (Index c = 0; c < ring_.width; ++c)
-        opposite[std::size_t{edge} * ring_.width + c] +=
-            ring_.neighbors[std::size_t{across} * ring_.width + c];
-    }
+  const DecaySum around = level < ring_.around.size() ? ring_.around[level] : DecaySum{};
+  std::vector<float> near_child(n);
+  pace_.for_each(n, [&](std::size_t k) { near_child[k] = decay_beside(ring_.edge_sharpness[k], around); });
+  const std::vector<Index> face_counts = count_faces();
+  const std::vector<Real> opposite = sum_opposite();
   const float child_sharpness = decay(ring_.vertex_sharpness);
   const VertexMask vertex =
       scheme_.vertex_mask({static_cast<Index>(ring_.wedges.size()), method_, ring_.vertex_sharpness,
@@ -186,13 +209,15 @@ void LimitRing<Scheme, Real>::step() {
   std::vector<Real> center(ring_.width);
   for (Index c = 0; c < ring_.width; ++c) {
     Real sum = static_cast<Real>(vertex.self) * ring_.center[c];
-    for (std::size_t k = 0; k < n; ++k)
+    pace_.for_each(n, [&](std::size_t k) {
       sum += static_cast<Real>(vertex.each) * ring_.neighbors[k * ring_.width + c];
+    });
     for (Index end : vertex.crease_ends)
       sum += static_cast<Real>(vertex.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
     center[c] = sum;
   }
   for (std::size_t k = 0; k < n; ++k) {
+    pace_.spend(ring_.width + Count{4});
     const EdgeMask edge =
         scheme_.edge_mask({face_counts[k], ring_.edge_sharpness[k], {near_child[k], ring_.far_child[k]}});
     // The far half's other half comes to stand beside the new ring: its sharpness decides, under Chaikin's
@@ -208,14 +233,8 @@ void LimitRing<Scheme, Real>::step() {
     }
   }
   ring_.center = std::move(center);
-  ring_.around = std::move(around);
   ring_.edge_sharpness = std::move(near_child);
   ring_.vertex_sharpness = child_sharpness;
-}
-
-template <class Scheme, class Real>
-Rule LimitRing<Scheme, Real>::rule() const {
-  return ring_.wedges.empty() ? Rule::corner : rule_of(ring_.vertex_sharpness, ring_.edge_sharpness);
 }
 
 // The ring's edges in cyclic order from the crease on.
@@ -230,8 +249,9 @@ template <class Scheme, class Real>
 void LimitRing<Scheme, Real>::apply(const RingMask& mask, std::span<const Index> order, Real* out) const {
   for (Index c = 0; c < ring_.width; ++c) {
     Real sum = static_cast<Real>(mask.self) * ring_.center[c];
-    for (std::size_t k = 0; k < mask.edges.size(); ++k)
+    pace_.for_each(mask.edges.size(), [&](std::size_t k) {
       sum += static_cast<Real>(mask.edges[k]) * ring_.neighbors[std::size_t{order[k]} * ring_.width + c];
+    });
     out[c] = sum;
   }
 }
@@ -242,9 +262,10 @@ void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<co
                                               Real out[3]) const {
   for (std::size_t c = 0; c < 3; ++c) {
     Real sum = 0;
-    for (std::size_t k = 0; k < mask.edges.size(); ++k)
+    pace_.for_each(mask.edges.size(), [&](std::size_t k) {
       sum += static_cast<Real>(mask.edges[k]) *
              (ring_.neighbors[std::size_t{order[k]} * 3 + c] - ring_.center[c]);
+    });
     out[c] = sum;
   }
 }
@@ -253,12 +274,12 @@ template <class Scheme, class Real>
 std::vector<Real> LimitRing<Scheme, Real>::position() const {
   std::vector<Real> out(ring_.center);
   VertexMask mask;
-  switch (rule()) {
+  switch (rule_) {
     case Rule::corner:
       return out;
     case Rule::dart: {
       const std::vector<Index> order = dart_order();
-      apply(scheme_.dart_limit_mask(static_cast<Index>(order.size())), order, out.data());
+      apply(scheme_.dart_limit_mask(static_cast<Index>(order.size()), pace_), order, out.data());
       return out;
     }
     case Rule::smooth:
@@ -274,8 +295,9 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
   for (Index c = 0; c < ring_.width; ++c) {
     Real sum = 0;  // the small weights first
     if (mask.each != 0)
-      for (std::size_t k = 0; k < ring_.edge_sharpness.size(); ++k)
+      pace_.for_each(ring_.edge_sharpness.size(), [&](std::size_t k) {
         sum += static_cast<Real>(mask.each) * ring_.neighbors[k * ring_.width + c];
+      });
     if (mask.crease != 0)
       for (Index end : mask.crease_ends)
         sum += static_cast<Real>(mask.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
@@ -287,12 +309,14 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
 template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
   Frame<Real> frame;
-  auto spoke = [&](Index edge, Real scale, Real out[3]) {
+  // Divided, not multiplied by the inverse: that of a denormal number is infinite.
+  auto spoke = [&](Index edge, Real unit, Real out[3]) {
     for (int c = 0; c < 3; ++c)
-      out[c] = (ring_.neighbors[std::size_t{edge} * 3 + c] - ring_.center[c]) * scale;
+      out[c] = (ring_.neighbors[std::size_t{edge} * 3 + c] - ring_.center[c]) / unit;
   };
   Real largest = 0;
   for (Index edge : sector.edges) {
+    pace_.spend(2);
     Real along[3];
     spoke(edge, 1, along);
     for (Real x : along) largest = std::max(largest, std::abs(x));
@@ -301,9 +325,10 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
   Real total = 0;
   const std::size_t n = sector.edges.size();
   for (std::size_t k = 0; k + 1 < n + (sector.closed ? 1 : 0); ++k) {
+    pace_.spend(4);
     Real a[3], b[3], area[3];
-    spoke(sector.edges[k], 1 / largest, a);
-    spoke(sector.edges[(k + 1) % n], 1 / largest, b);
+    spoke(sector.edges[k], largest, a);
+    spoke(sector.edges[(k + 1) % n], largest, b);
     cross(a, b, area);
     for (int c = 0; c < 3; ++c) {
       frame.normal[c] += area[c];
@@ -329,22 +354,21 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
 template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
   Frame<Real> frame;
-  const Rule rule = this->rule();
   const auto faces = static_cast<Index>(sector.edges.size() - (sector.closed ? 0 : 1));
   const bool returns = !sector.closed && sector.edges.front() == sector.edges.back();
   const Frame<Real> mean = mean_frame(sector);
   if (sector.closed) {
-    apply_to_spokes(scheme_.smooth_tangent_u(faces), sector.edges, frame.u);
-    apply_to_spokes(scheme_.smooth_tangent_v(faces), sector.edges, frame.v);
-  } else if (rule == Rule::dart) {
+    apply_to_spokes(scheme_.smooth_tangent_u(faces, pace_), sector.edges, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), sector.edges, frame.v);
+  } else if (rule_ == Rule::dart) {
     const std::vector<Index> order = dart_order();
-    apply_to_spokes(scheme_.dart_tangent_u(faces), order, frame.u);
-    apply_to_spokes(scheme_.smooth_tangent_v(faces), order, frame.v);
-  } else if (rule == Rule::crease && !returns) {
+    apply_to_spokes(scheme_.dart_tangent_u(faces, pace_), order, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), order, frame.v);
+  } else if (rule_ == Rule::crease && !returns) {
     const Index ends[2] = {sector.edges.front(), sector.edges.back()};
     apply_to_spokes({0, {1, -1}}, ends, frame.u);
-    apply_to_spokes(scheme_.crease_tangent_across(faces), sector.edges, frame.v);
-  } else if (rule == Rule::corner && faces <= 2 && !returns) {
+    apply_to_spokes(scheme_.crease_tangent_across(faces, pace_), sector.edges, frame.v);
+  } else if (rule_ == Rule::corner && faces <= 2 && !returns) {
     const Index ends[2] = {sector.edges.front(), sector.edges.back()};
     apply_to_spokes({-1, {1, 0}}, ends, frame.u);
     apply_to_spokes({-1, {0, 1}}, ends, frame.v);
@@ -354,7 +378,7 @@ Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
   if (!set_normal(frame)) return mean;
   // The border edges of a corner may open by more than 180 degrees: the faces between them tell which side is
   // out.
-  if (rule == Rule::corner && dot(frame.normal, mean.normal) < 0) {
+  if (rule_ == Rule::corner && dot(frame.normal, mean.normal) < 0) {
     std::swap_ranges(frame.u, frame.u + 3, frame.v);
     for (Real& x : frame.normal) x = -x;
   }
@@ -364,7 +388,7 @@ Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
 template <class Scheme, class Real>
 std::vector<Frame<Real>> LimitRing<Scheme, Real>::frames() const {
   std::vector<Frame<Real>> result;
-  for (const Sector& sector : ring_.sectors) result.push_back(frame_of(sector));
+  for_each_frame([&](const Frame<Real>& frame) { result.push_back(frame); });
   return result;
 }
 
@@ -379,7 +403,7 @@ template class LimitRing<Loop, float>;
 template class LimitRing<Loop, double>;
 template void normalize<float>(float[3]);
 template void normalize<double>(double[3]);
-template void mean_normal<float>(std::span<const Frame<float>>, float[3]);
-template void mean_normal<double>(std::span<const Frame<double>>, double[3]);
+template class FrameMean<float>;
+template class FrameMean<double>;
 
 }  // namespace subdivd

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
 #include "core/schemes/mask.h"
@@ -42,15 +43,16 @@ struct Ring {
   std::vector<Real> center, neighbors;  // width scalars; width per ring edge
   float vertex_sharpness = 0;
   std::vector<float> edge_sharpness;  // of the ring's edges
-  // What decides how semi-sharp edges decay; may be empty where nothing is semi-sharp.
-  std::vector<float> around;         // sharpness of the mesh's edges at the vertex, which decay together
-  std::vector<std::size_t> in_mesh;  // position of every ring edge in `around`
-  std::vector<float> far_child;      // one level on, of the halves that are not next to the vertex
+  // How semi-sharp edges decay: of all the mesh's edges at the vertex, at this level and the following ones;
+  // empty where none decays with others. (The ring of a channel has but some of these edges. A hub may have a
+  // million such rings: only sums, so that not every one of them goes through all its edges.)
+  std::vector<DecaySum> around;
+  std::vector<float> far_child;  // one level on, of the halves that are not next to the vertex
   std::vector<Wedge> wedges;
   std::vector<Sector> sectors;
 
   // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
-  void set_faces(const Topology& topology, Index v);
+  void set_faces(const Topology& topology, Index v, const Pace& pace = {});
 };
 
 // The ring of vertex v. `values`: width scalars per vertex of the topology. For a channel, `mesh` is the mesh
@@ -60,11 +62,11 @@ template <class Real>
 Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
                    std::span<const Real> values, Index width);
 
-// A ring ready for limits. Scheme: see core/schemes/scheme.h.
+// A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see core/schemes/scheme.h.
 template <class Scheme, class Real>
 class LimitRing {
  public:
-  LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring);
+  LimitRing(const Scheme& scheme, CreaseMethod method, Ring<Real> ring, const Pace& pace = {});
 
   // Limit of the vertex: width scalars.
   std::vector<Real> position() const;
@@ -76,13 +78,22 @@ class LimitRing {
   //                  plane: the mean of the sector's triangles, weighted by area
   // Where the tangents are parallel (degenerate geometry) the mean of the triangles takes their place.
   std::vector<Frame<Real>> frames() const;
+  // Calls f(frame) for one after the other: a hub may have a million.
+  template <class F>
+  void for_each_frame(F&& f) const {
+    for (const Sector& sector : ring_.sectors) {
+      pace_.spend(16);
+      f(frame_of(sector));
+    }
+  }
 
  private:
   using Sector = typename Ring<Real>::Sector;
 
   bool settled() const;
-  void step();
-  Rule rule() const;
+  void step(std::size_t level);
+  std::vector<Index> count_faces() const;
+  std::vector<Real> sum_opposite() const;
   std::vector<Index> dart_order() const;
   void apply(const RingMask& mask, std::span<const Index> order, Real* out) const;
   void apply_to_spokes(const RingMask& mask, std::span<const Index> order, Real out[3]) const;
@@ -92,6 +103,8 @@ class LimitRing {
   Scheme scheme_;
   CreaseMethod method_;
   Ring<Real> ring_;
+  Pace pace_;
+  Rule rule_ = Rule::corner;
 };
 
 // Sets the normal from the tangents; false when they are parallel as far as the type can tell.
@@ -102,8 +115,19 @@ bool set_normal(Frame<Real>& frame);
 template <class Real>
 void normalize(Real vector[3]);
 
-// The unit vector in the middle of the frames' normals; zero where they cancel or there is none.
+// What is kept of the frames at a vertex: the first, and the unit vector in the middle of all their normals;
+// zero where they cancel or there is none.
 template <class Real>
-void mean_normal(std::span<const Frame<Real>> frames, Real out[3]);
+class FrameMean {
+ public:
+  void add(const Frame<Real>& frame);
+  const Frame<Real>& first() const { return first_; }
+  void normal(Real out[3]) const;
+
+ private:
+  Frame<Real> first_;
+  Real sum_[3] = {0, 0, 0};
+  Count count_ = 0;
+};
 
 }  // namespace subdivd

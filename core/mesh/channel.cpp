@@ -1,6 +1,7 @@
 #include "core/mesh/channel.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/mesh/positions.h"
 
@@ -8,28 +9,30 @@ namespace subdivd {
 namespace {
 
 // Channel vertices of the corners, and the value of each channel vertex.
-void number_vertices(const Topology& base, std::span<const Index> corner_values, Index value_count,
-                     std::vector<Index>& corners, std::vector<Index>& values) {
-  std::vector<Index> owner(value_count, kNoIndex);  // first point that uses the value
-  values.resize(value_count);
-  for (Index k = 0; k < value_count; ++k) values[k] = k;
-  corners.resize(corner_values.size());
-  std::vector<std::pair<Index, Index>> extra;  // of one point: value, channel vertex; sorted by value
-  for (Index v = 0; v < base.vertex_count(); ++v) {
-    extra.clear();
-    for (Index h : base.vertex_corners(v)) {
+void number_vertices(const Topology& base, std::span<const Index> vertices,
+                     std::span<const Index> corner_values, Index value_count, std::vector<Index>& corners,
+                     std::vector<Index>& values, const Pace& pace) {
+  // Per value: the first point that uses it; the last one that uses it as well, and its channel vertex there.
+  std::vector<Index> owner, last, number_there;
+  for (auto* array : {&owner, &last, &number_there}) pace.fill(*array, value_count, kNoIndex);
+  values.reserve(value_count);
+  pace.for_each(value_count, [&](Index k) { values.push_back(k); });
+  pace.fill(corners, corner_values.size(), 0);
+  for (const Index v : vertices) {
+    for (const Index h : base.vertex_corners(v)) {
+      pace.spend(1);
       const Index value = corner_values[h];
       if (owner[value] == kNoIndex) owner[value] = v;
       if (owner[value] == v) {
         corners[h] = value;
         continue;
       }
-      auto at = std::ranges::lower_bound(extra, value, {}, &std::pair<Index, Index>::first);
-      if (at == extra.end() || at->first != value) {
-        at = extra.insert(at, {value, static_cast<Index>(values.size())});
+      if (last[value] != v) {
+        last[value] = v;
+        number_there[value] = static_cast<Index>(values.size());
         values.push_back(value);
       }
-      corners[h] = at->second;
+      corners[h] = number_there[value];
     }
   }
 }
@@ -44,21 +47,28 @@ struct Span {
 class Rules {
  public:
   Rules(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
-        const Sharpness& base_sharpness, Channel& channel)
+        const Sharpness& base_sharpness, Channel& channel, const Pace& pace)
       : mesh_(mesh),
         crease_method_(crease_method),
         base_(base),
         base_sharpness_(base_sharpness),
         channel_(channel),
-        mode_(mesh.face_varying_linear_interpolation) {}
+        mode_(mesh.face_varying_linear_interpolation),
+        pace_(pace) {}
 
-  void apply() {
+  void apply(std::span<const Index> vertices) {
     inherit_edges();
     std::vector<Index> values;
-    for (Index v = 0; v < base_.vertex_count(); ++v) {
+    for (const Index v : vertices) {
       values.clear();
-      for (Index h : base_.vertex_corners(v)) values.push_back(channel_.topology.corner_vertex(h));
-      std::ranges::sort(values);
+      for (Index h : base_.vertex_corners(v)) {
+        pace_.spend(8);
+        values.push_back(channel_.topology.corner_vertex(h));
+      }
+      if (values.size() < 64)
+        std::ranges::sort(values);
+      else
+        pace_.sort(values.begin(), values.end(), std::less<>());
       values.erase(std::unique(values.begin(), values.end()), values.end());
       sharpen_around(v, values);
     }
@@ -72,12 +82,14 @@ class Rules {
 
   void inherit_edges() {
     const Topology& topology = channel_.topology;
-    channel_.sharpness.edges.assign(topology.edge_count(), 0.0f);
-    for (Index h = 0; h < topology.triangles().size(); ++h)
+    pace_.fill(channel_.sharpness.edges, topology.edge_count(), 0.0f);
+    pace_.for_each(static_cast<Index>(topology.triangles().size()), [&](Index h) {
       channel_.sharpness.edges[topology.half_edge_edge(h)] = base_sharpness_.edges[base_.half_edge_edge(h)];
-    for (Index e = 0; e < topology.edge_count(); ++e)
+    });
+    pace_.for_each(topology.edge_count(), [&](Index e) {
       if (topology.is_boundary(e) || topology.is_non_manifold_edge(e))
         channel_.sharpness.edges[e] = kInfiniteSharpness;
+    });
   }
 
   // Whether the channel around v looks like the mesh around v, so that v's own rule holds.
@@ -85,6 +97,7 @@ class Rules {
     if (values.size() != 1) return false;
     bool border = false;
     for (Index h : base_.vertex_corners(v)) {
+      pace_.spend(4);
       if (is_seam(h) || is_seam(Topology::prev(h))) return false;
       border |= base_.is_boundary(base_.half_edge_edge(h)) ||
                 base_.is_boundary(base_.half_edge_edge(Topology::prev(h)));
@@ -102,6 +115,7 @@ class Rules {
     span.faces = static_cast<Index>(topology.vertex_corners(c).size());
     span.disjoint = topology.is_non_manifold_vertex(c);
     for (Index e : topology.vertex_edges(c)) {
+      pace_.spend(2);
       if (topology.is_boundary(e)) continue;
       span.disjoint |= is_infinite(channel_.sharpness.edges[e]);
       span.semi_sharp += is_semi_sharp(channel_.sharpness.edges[e]);
@@ -117,8 +131,10 @@ class Rules {
     }
     using enum FaceVaryingInterpolation;
     const bool dependent = mode_ == corners_plus1 || mode_ == corners_plus2;
-    const bool border =
-        std::ranges::any_of(base_.vertex_edges(v), [&](Index e) { return base_.is_boundary(e); });
+    const bool border = std::ranges::any_of(base_.vertex_edges(v), [&](Index e) {
+      pace_.spend(1);
+      return base_.is_boundary(e);
+    });
     bool all_sharp = channel_.linear_borders || is_infinite(base_sharpness_.vertices[v]) ||
                      base_.is_non_manifold_vertex(v) || (dependent && values.size() > 2) ||
                      (mode_ == corners_plus2 && values.size() == 1 && !border);
@@ -129,6 +145,7 @@ class Rules {
       all_sharp |= mode_ == corners_plus2 && (spans[0].faces == 1 || spans[1].faces == 1);
     }
     for (std::size_t k = 0; k < values.size(); ++k) {
+      pace_.spend(1);
       const bool sharp_corner = spans[k].disjoint || (spans[k].faces == 1 && mode_ != none);
       vertices[values[k]] = all_sharp || sharp_corner ? kInfiniteSharpness : base_sharpness_.vertices[v];
     }
@@ -147,18 +164,24 @@ class Rules {
   float levels_held(Index v, Index c) const {
     const auto around = base_.vertex_edges(v);
     std::vector<float> edges, next(around.size()), own, own_next;
-    for (Index e : around) edges.push_back(base_sharpness_.edges[e]);
-    const Positions in_around(around);
+    for (Index e : around) {
+      pace_.spend(1);
+      edges.push_back(base_sharpness_.edges[e]);
+    }
+    const Positions in_around(around, pace_);
     std::vector<std::size_t> inside;  // of the fan, as positions around v
-    for (Index h : channel_.topology.vertex_corners(c))
+    for (Index h : channel_.topology.vertex_corners(c)) {
+      pace_.spend(16);
       if (!channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)))
         inside.push_back(in_around(base_.half_edge_edge(h)));
+    }
     float vertex = base_sharpness_.vertices[v];
     for (float levels = 0;; ++levels) {
-      decay_around_vertex(crease_method_, edges, next);
+      decay_around_vertex(crease_method_, edges, next, pace_);
       own.clear();
       own_next.clear();
       for (std::size_t k : inside) {
+        pace_.spend(4);
         own.push_back(edges[k]);
         own_next.push_back(next[k]);
       }
@@ -179,21 +202,30 @@ class Rules {
   const Sharpness& base_sharpness_;
   Channel& channel_;
   FaceVaryingInterpolation mode_;
+  const Pace& pace_;
 };
 
 }  // namespace
 
+std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pace) {
+  std::vector<Index> vertices;
+  pace.for_each(topology.vertex_count(), [&](Index v) {
+    if (!topology.vertex_corners(v).empty()) vertices.push_back(v);
+  });
+  return vertices;
+}
+
 Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
-                     const Sharpness& base_sharpness, std::span<const Index> corner_values,
-                     Index value_count) {
+                     const Sharpness& base_sharpness, std::span<const Index> vertices,
+                     std::span<const Index> corner_values, Index value_count, const Pace& pace) {
   Channel channel;
   std::vector<Index> corners;
-  number_vertices(base, corner_values, value_count, corners, channel.values);
-  channel.topology = Topology(static_cast<Index>(channel.values.size()), std::move(corners));
+  number_vertices(base, vertices, corner_values, value_count, corners, channel.values, pace);
+  channel.topology = Topology(static_cast<Index>(channel.values.size()), std::move(corners), pace);
   channel.linear = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
   channel.linear_borders = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
-  channel.sharpness.vertices.assign(channel.topology.vertex_count(), 0.0f);
-  Rules(mesh, crease_method, base, base_sharpness, channel).apply();
+  pace.fill(channel.sharpness.vertices, channel.topology.vertex_count(), 0.0f);
+  Rules(mesh, crease_method, base, base_sharpness, channel, pace).apply(vertices);
   return channel;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
@@ -23,10 +24,15 @@ struct Channel {
   bool linear_borders = false;  // mode boundaries: every point of the channel's border is a corner
 };
 
+// The vertices that have faces, ascending: what a channel goes through, for a mesh may have more points that
+// no face uses than all its channels together have values.
+std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pace = {});
+
 // `corner_values`: one value index per face corner, each < value_count. `base` and `base_sharpness` are the
-// control mesh's own (control_sharpness); the crease method tells how long a semi-sharp crease holds.
+// control mesh's own (control_sharpness), `vertices` is vertices_with_faces(base); the crease method tells how
+// long a semi-sharp crease holds. Linear in the faces and values, but values are sorted at each vertex.
 Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
-                     const Sharpness& base_sharpness, std::span<const Index> corner_values,
-                     Index value_count);
+                     const Sharpness& base_sharpness, std::span<const Index> vertices,
+                     std::span<const Index> corner_values, Index value_count, const Pace& pace = {});
 
 }  // namespace subdivd

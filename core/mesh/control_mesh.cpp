@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
+#include <functional>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include "core/base/pace.h"
+#include "core/base/precision.h"
+#include "core/mesh/creases.h"
 #include "core/mesh/scan.h"
 
 namespace subdivd {
@@ -18,8 +23,18 @@ std::string number(Count n) { return std::to_string(n); }
 
 Path at(std::string field, Count index) { return {std::move(field), std::uint64_t{index}}; }
 
-Result<void> check_finite(const std::vector<double>& values, Path where) {
-  if (all_finite(values)) return {};
+// Whether `test` finds every block of the values sound.
+template <class T, class Test>
+bool all_blocks(std::span<const T> values, const Pace& pace, Test&& test) {
+  bool sound = true;
+  pace.in_blocks(values.size(), [&](Count begin, Count end) {
+    if (sound) sound = test(values.subspan(begin, end - begin));
+  });
+  return sound;
+}
+
+Result<void> check_finite(std::span<const double> values, Path where, const Pace& pace) {
+  if (all_blocks(values, pace, [](std::span<const double> block) { return all_finite(block); })) return {};
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k])) {
       where.emplace_back(std::uint64_t{k});
@@ -28,8 +43,10 @@ Result<void> check_finite(const std::vector<double>& values, Path where) {
   return {};
 }
 
-Result<void> check_indices(const std::vector<Index>& indices, Count count, std::string_view of, Path where) {
-  if (all_below(indices, count)) return {};
+Result<void> check_indices(std::span<const Index> indices, Count count, std::string_view of, Path where,
+                           const Pace& pace) {
+  if (all_blocks(indices, pace, [&](std::span<const Index> block) { return all_below(block, count); }))
+    return {};
   for (std::size_t k = 0; k < indices.size(); ++k)
     if (indices[k] >= count) {
       where.emplace_back(std::uint64_t{k});
@@ -40,22 +57,29 @@ Result<void> check_indices(const std::vector<Index>& indices, Count count, std::
   return {};
 }
 
-Result<void> check_unique(const std::vector<Index>& indices, Count count, const std::string& field) {
-  std::vector<unsigned char> seen(count, 0);
-  for (std::size_t k = 0; k < indices.size(); ++k)
+Result<void> check_unique(const std::vector<Index>& indices, Count count, const std::string& field,
+                          const Pace& pace) {
+  if (indices.empty()) return {};
+  std::vector<unsigned char> seen;
+  pace.fill(seen, count, 0);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    pace.spend(1);
     if (std::exchange(seen[indices[k]], 1) != 0)
       return fault(ErrorCode::duplicate_tag, "index " + number(indices[k]) + " is given twice", at(field, k));
+  }
   return {};
 }
 
-Result<void> check_sharpness(const std::vector<float>& values, const std::string& field) {
-  for (std::size_t k = 0; k < values.size(); ++k)
+Result<void> check_sharpness(const std::vector<float>& values, const std::string& field, const Pace& pace) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    pace.spend(1);
     if (!(values[k] >= 0))
       return fault(ErrorCode::out_of_range, "sharpness must be 0 or more, or \"infinite\"", at(field, k));
+  }
   return {};
 }
 
-Result<void> check_points(const ControlMesh& mesh) {
+Result<void> check_points(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.points.size() % 3 != 0)
     return fault(
         ErrorCode::wrong_length,
@@ -63,10 +87,38 @@ Result<void> check_points(const ControlMesh& mesh) {
         {"points"});
   if (mesh.point_count() >= kMaxIndexCount)
     return fault(ErrorCode::too_large, "has more points than 32-bit indices can number", {"points"});
-  return check_finite(mesh.points, {"points"});
+  return check_finite(mesh.points, {"points"}, pace);
 }
 
-Result<void> check_faces(const ControlMesh& mesh) {
+// Whether all indices are sound, a block of whole triangles after the other.
+bool all_triangles_sound(std::span<const Index> triangles, Count count, const Pace& pace) {
+  bool sound = true;
+  pace.in_blocks(triangles.size() / 3, [&](Count begin, Count end) {
+    if (sound) sound = all_sound(triangles.subspan(3 * begin, 3 * (end - begin)), count);
+  });
+  return sound;
+}
+
+Result<void> check_face_counts(const ControlMesh& mesh, const Pace& pace) {
+  Count corners = 0;
+  pace.for_each(mesh.face_vertex_counts.size(), [&](Count f) { corners += mesh.face_vertex_counts[f]; });
+  if (corners != mesh.face_vertex_indices.size())
+    return fault(ErrorCode::wrong_length,
+                 "adds up to " + number(corners) + " corners but faceVertexIndices holds " +
+                     number(mesh.face_vertex_indices.size()),
+                 {"faceVertexCounts"});
+  for (std::size_t f = 0; f < mesh.face_vertex_counts.size(); ++f) {
+    pace.spend(1);
+    if (mesh.face_vertex_counts[f] != 3)
+      return fault(ErrorCode::not_a_triangle,
+                   "face " + number(f) + " has " + number(mesh.face_vertex_counts[f]) +
+                       " vertices; Loop takes triangles only: set triangulate to true to split larger faces",
+                   at("faceVertexCounts", f));
+  }
+  return {};
+}
+
+Result<void> check_faces(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.face_vertex_indices.empty())
     return fault(ErrorCode::wrong_length, "is empty; a mesh has at least one face", {"faceVertexIndices"});
   if (mesh.face_vertex_indices.size() >= kMaxIndexCount)
@@ -79,28 +131,16 @@ Result<void> check_faces(const ControlMesh& mesh) {
           "holds " + number(mesh.face_vertex_indices.size()) +
               " indices; without faceVertexCounts all faces are triangles, which make a multiple of 3",
           {"faceVertexIndices"});
-  } else {
-    Count corners = 0;
-    for (Index count : mesh.face_vertex_counts) corners += count;
-    if (corners != mesh.face_vertex_indices.size())
-      return fault(ErrorCode::wrong_length,
-                   "adds up to " + number(corners) + " corners but faceVertexIndices holds " +
-                       number(mesh.face_vertex_indices.size()),
-                   {"faceVertexCounts"});
-    for (std::size_t f = 0; f < mesh.face_vertex_counts.size(); ++f)
-      if (mesh.face_vertex_counts[f] != 3)
-        return fault(
-            ErrorCode::not_a_triangle,
-            "face " + number(f) + " has " + number(mesh.face_vertex_counts[f]) +
-                " vertices; Loop takes triangles only: set triangulate to true to split larger faces",
-            at("faceVertexCounts", f));
+  } else if (auto fine = check_face_counts(mesh, pace); !fine) {
+    return fine;
   }
-  if (all_sound(mesh.face_vertex_indices, mesh.point_count())) return {};
+  if (all_triangles_sound(mesh.face_vertex_indices, mesh.point_count(), pace)) return {};
   if (auto fine =
-          check_indices(mesh.face_vertex_indices, mesh.point_count(), "points", {"faceVertexIndices"});
+          check_indices(mesh.face_vertex_indices, mesh.point_count(), "points", {"faceVertexIndices"}, pace);
       !fine)
     return fine;
   for (std::size_t h = 0; h < mesh.face_vertex_indices.size(); h += 3) {
+    pace.spend(3);
     const Index* v = mesh.face_vertex_indices.data() + h;
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
       return fault(ErrorCode::not_a_triangle, "face " + number(h / 3) + " repeats a vertex",
@@ -109,39 +149,28 @@ Result<void> check_faces(const ControlMesh& mesh) {
   return {};
 }
 
-std::uint64_t edge_key(Index a, Index b) { return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b); }
-
 // Every two neighbours of a crease must share an edge.
-Result<void> check_crease_edges(const ControlMesh& mesh) {
-  std::unordered_set<std::uint64_t> wanted;
-  std::size_t point = 0;
-  for (Index length : mesh.crease_lengths) {
-    for (Index k = 0; k + 1 < length; ++k)
-      wanted.insert(edge_key(mesh.crease_indices[point + k], mesh.crease_indices[point + k + 1]));
-    point += length;
-  }
-  for (std::size_t h = 0; h < mesh.face_vertex_indices.size() && !wanted.empty(); h += 3)
-    for (std::size_t k = 0; k < 3; ++k)
-      wanted.erase(edge_key(mesh.face_vertex_indices[h + k], mesh.face_vertex_indices[h + (k + 1) % 3]));
-  if (wanted.empty()) return {};
-  point = 0;
-  for (Index length : mesh.crease_lengths) {
-    for (Index k = 0; k + 1 < length; ++k) {
-      const Index a = mesh.crease_indices[point + k], b = mesh.crease_indices[point + k + 1];
-      if (wanted.contains(edge_key(a, b)))
-        return fault(ErrorCode::not_an_edge,
-                     "points " + number(a) + " and " + number(b) +
-                         " share no edge; a crease runs along edges of the mesh",
-                     at("creaseIndices", point + k + 1));
-    }
-    point += length;
-  }
-  return {};
+Result<void> check_crease_edges(const ControlMesh& mesh, const Pace& pace) {
+  if (mesh.crease_lengths.empty()) return {};
+  const std::vector<VertexPair> edges = crease_edges(mesh, pace);
+  const std::vector<unsigned char> found =
+      are_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, edges, pace);
+  const auto missing = static_cast<std::size_t>(std::ranges::find(found, 0) - found.begin());
+  if (missing == found.size()) return {};
+  Count place = 0, edge = 0;
+  for_each_crease_edge(mesh, [&](Count position, Index, Index, float) {
+    if (edge++ == missing) place = position + 1;
+  });
+  return fault(ErrorCode::not_an_edge,
+               "points " + number(edges[missing][0]) + " and " + number(edges[missing][1]) +
+                   " share no edge; a crease runs along edges of the mesh",
+               at("creaseIndices", place));
 }
 
-Result<void> check_creases(const ControlMesh& mesh) {
+Result<void> check_creases(const ControlMesh& mesh, const Pace& pace) {
   Count points = 0, edges = 0;
   for (std::size_t k = 0; k < mesh.crease_lengths.size(); ++k) {
+    pace.spend(1);
     if (mesh.crease_lengths[k] < 2)
       return fault(ErrorCode::out_of_range, "a crease has at least 2 points", at("creaseLengths", k));
     points += mesh.crease_lengths[k];
@@ -157,25 +186,26 @@ Result<void> check_creases(const ControlMesh& mesh) {
                  "holds " + number(mesh.crease_sharpnesses.size()) + " numbers; one per crease makes " +
                      number(mesh.crease_lengths.size()) + ", one per edge of every crease " + number(edges),
                  {"creaseSharpnesses"});
-  if (auto fine = check_indices(mesh.crease_indices, mesh.point_count(), "points", {"creaseIndices"}); !fine)
+  if (auto fine = check_indices(mesh.crease_indices, mesh.point_count(), "points", {"creaseIndices"}, pace);
+      !fine)
     return fine;
-  if (auto fine = check_sharpness(mesh.crease_sharpnesses, "creaseSharpnesses"); !fine) return fine;
-  return check_crease_edges(mesh);
+  if (auto fine = check_sharpness(mesh.crease_sharpnesses, "creaseSharpnesses", pace); !fine) return fine;
+  return check_crease_edges(mesh, pace);
 }
 
-Result<void> check_corners_and_holes(const ControlMesh& mesh) {
+Result<void> check_corners_and_holes(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.corner_sharpnesses.size() != mesh.corner_indices.size())
     return fault(ErrorCode::wrong_length,
                  "holds " + number(mesh.corner_sharpnesses.size()) + " numbers for " +
                      number(mesh.corner_indices.size()) + " cornerIndices",
                  {"cornerSharpnesses"});
-  if (auto fine = check_indices(mesh.corner_indices, mesh.point_count(), "points", {"cornerIndices"}); !fine)
+  if (auto fine = check_indices(mesh.corner_indices, mesh.point_count(), "points", {"cornerIndices"}, pace); !fine)
     return fine;
-  if (auto fine = check_unique(mesh.corner_indices, mesh.point_count(), "cornerIndices"); !fine) return fine;
-  if (auto fine = check_sharpness(mesh.corner_sharpnesses, "cornerSharpnesses"); !fine) return fine;
-  if (auto fine = check_indices(mesh.hole_indices, mesh.face_count(), "faces", {"holeIndices"}); !fine)
+  if (auto fine = check_unique(mesh.corner_indices, mesh.point_count(), "cornerIndices", pace); !fine) return fine;
+  if (auto fine = check_sharpness(mesh.corner_sharpnesses, "cornerSharpnesses", pace); !fine) return fine;
+  if (auto fine = check_indices(mesh.hole_indices, mesh.face_count(), "faces", {"holeIndices"}, pace); !fine)
     return fine;
-  return check_unique(mesh.hole_indices, mesh.face_count(), "holeIndices");
+  return check_unique(mesh.hole_indices, mesh.face_count(), "holeIndices", pace);
 }
 
 Count expected_count(const ControlMesh& mesh, Interpolation interpolation) {
@@ -193,10 +223,9 @@ Count expected_count(const ControlMesh& mesh, Interpolation interpolation) {
   return 0;
 }
 
-Result<void> check_primvar(const ControlMesh& mesh, const Primvar& primvar) {
-  const Path here{"primvars", primvar.name};
+Result<void> check_primvar(const ControlMesh& mesh, const Primvar& primvar, const Pace& pace) {
   auto member = [&](const char* name) { return Path{"primvars", primvar.name, name}; };
-  if (primvar.name.empty()) return fault(ErrorCode::out_of_range, "a primvar needs a name", here);
+  if (primvar.name.empty()) return fault(ErrorCode::out_of_range, "a primvar needs a name", {"primvars", primvar.name});
   if (primvar.element_size < 1 || primvar.element_size > kMaxElementSize)
     return fault(ErrorCode::out_of_range, "must be 1 to " + number(kMaxElementSize), member("elementSize"));
   if (primvar.values.size() % primvar.element_size != 0)
@@ -214,31 +243,47 @@ Result<void> check_primvar(const ControlMesh& mesh, const Primvar& primvar) {
                  member(indexed ? "indices" : "values"));
   if (values >= kMaxIndexCount)
     return fault(ErrorCode::too_large, "has more values than 32-bit indices can number", member("values"));
-  if (auto fine = check_indices(primvar.indices, values, "values", member("indices")); !fine) return fine;
-  return check_finite(primvar.values, member("values"));
+  if (auto fine = check_indices(primvar.indices, values, "values", member("indices"), pace); !fine) return fine;
+  return check_finite(primvar.values, member("values"), pace);
 }
 
-Result<void> check_primvars(const ControlMesh& mesh) {
-  std::unordered_set<std::string_view> names;
-  for (const Primvar& primvar : mesh.primvars) {
-    if (!names.insert(primvar.name).second)
-      return fault(ErrorCode::duplicate_field, "two primvars have this name", {"primvars", primvar.name});
-    if (auto fine = check_primvar(mesh, primvar); !fine) return fine;
+// The first primvar whose name another one before it has; their number when there is none. By sorting: a hash
+// of names that a caller chose can be made to collide.
+std::size_t first_duplicate(const std::vector<Primvar>& primvars, const Pace& pace) {
+  std::vector<std::pair<std::string_view, std::size_t>> names;
+  names.reserve(primvars.size());
+  for (std::size_t k = 0; k < primvars.size(); ++k) names.emplace_back(primvars[k].name, k);
+  pace.sort(names.begin(), names.end(), std::less<>());
+  std::size_t first = primvars.size();
+  for (std::size_t k = 1; k < names.size(); ++k)
+    if (names[k].first == names[k - 1].first) first = std::min(first, names[k].second);
+  return first;
+}
+
+Result<void> check_primvars(const ControlMesh& mesh, const Pace& pace) {
+  const std::size_t duplicate = first_duplicate(mesh.primvars, pace);
+  for (std::size_t k = 0; k < mesh.primvars.size(); ++k) {
+    pace.spend(16);
+    if (k == duplicate)
+      return fault(ErrorCode::duplicate_field, "two primvars have this name",
+                   {"primvars", mesh.primvars[k].name});
+    if (auto fine = check_primvar(mesh, mesh.primvars[k], pace); !fine) return fine;
   }
   return {};
 }
 
-Result<void> check_render_meshes(const ControlMesh& mesh) {
+Result<void> check_render_meshes(const ControlMesh& mesh, const Pace& pace) {
   Index end = 0;
   for (std::size_t k = 0; k < mesh.render_meshes.size(); ++k) {
+    pace.spend(16);
     const RenderMesh& render = mesh.render_meshes[k];
     if (render.face_begin < end || render.face_end < render.face_begin || render.face_end > mesh.face_count())
       return fault(ErrorCode::out_of_range, "face ranges must ascend within the mesh", at("renderMeshes", k));
     end = render.face_end;
     if (render.indices.size() != 3 * Count{render.face_end - render.face_begin})
       return fault(ErrorCode::wrong_length, "3 indices per face are needed", at("renderMeshes", k));
-    if (all_sound(render.indices, render.vertex_count)) continue;
-    if (auto fine = check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k));
+    if (all_triangles_sound(render.indices, render.vertex_count, pace)) continue;
+    if (auto fine = check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k), pace);
         !fine)
       return fine;
     return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
@@ -248,11 +293,40 @@ Result<void> check_render_meshes(const ControlMesh& mesh) {
 
 }  // namespace
 
-Result<void> ControlMesh::check([[maybe_unused]] const Budget& budget) const {
-  for (auto part : {check_points, check_faces, check_creases, check_corners_and_holes, check_primvars,
-                    check_render_meshes})
-    if (auto fine = part(*this); !fine) return fine;
-  return {};
+Result<void> ControlMesh::check(const Budget& budget) const {
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (auto part : {check_points, check_faces, check_creases, check_corners_and_holes, check_primvars,
+                      check_render_meshes})
+      if (auto fine = part(*this, pace); !fine) return fine;
+    return {};
+  });
 }
+
+template <class Real>
+Result<void> check_magnitudes(const ControlMesh& mesh, const Budget& budget) {
+  const auto judge = [](std::span<const double> values, Path where, const Pace& pace) -> Result<void> {
+    if (all_blocks(values, pace, [](std::span<const double> block) {
+          return all_within(block, kLargestValue<Real>) && all_finite(block);
+        }))
+      return {};
+    const auto bad =
+        std::ranges::find_if(values, [](double x) { return !(std::abs(x) <= kLargestValue<Real>); });
+    where.emplace_back(static_cast<std::uint64_t>(bad - values.begin()));
+    return fault(ErrorCode::out_of_range,
+                 sizeof(Real) == 4 ? "is too large to be refined in single precision (at most 3.4e32); take "
+                                     "precision double or scale it down"
+                                   : "is too large to be refined in double precision (at most 1.7e302)",
+                 std::move(where));
+  };
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    if (auto fits = judge(mesh.points, {"points"}, pace); !fits) return fits;
+    for (const Primvar& primvar : mesh.primvars)
+      if (auto fits = judge(primvar.values, {"primvars", primvar.name, "values"}, pace); !fits) return fits;
+    return {};
+  });
+}
+
+template Result<void> check_magnitudes<float>(const ControlMesh&, const Budget&);
+template Result<void> check_magnitudes<double>(const ControlMesh&, const Budget&);
 
 }  // namespace subdivd

@@ -90,4 +90,11 @@ struct ControlMesh {
   Result<void> check(const Budget& budget = {}) const;
 };
 
+// Whether the mesh, which has passed check(), can be refined in Real: no point and no value of a primvar is
+// beyond kLargestValue (core/base/precision.h). Otherwise the first that is, by its field's name and its
+// index among the numbers there, e.g. {"points", 7}. refine() asks the same. Instantiated for float and
+// double.
+template <class Real>
+Result<void> check_magnitudes(const ControlMesh& mesh, const Budget& budget = {});
+
 }  // namespace subdivd

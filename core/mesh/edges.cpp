@@ -1,13 +1,13 @@
 #include "core/mesh/edges.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace subdivd {
 namespace {
 
 // Between two polls of the budget: a millisecond, or some where vertices have many edges.
-constexpr Index kFacesPerPoll = 1 << 15;
+constexpr Index kFacesPerPoll = 1 << 14;
 
 // A vertex of more corners keeps no edges: a hub of a million edges must not cost a million steps for each.
 constexpr Index kMostCorners = 64;
@@ -17,28 +17,32 @@ constexpr Index kMostCorners = 64;
 // depends on whether a half-edge is the first along its edge or the second: that is a coin toss.
 class EdgeFinder {
  public:
-  EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets)
+  EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
+             const Pace& pace)
       : triangles_(triangles),
         corner_offsets_(corner_offsets),
+        pace_(pace),
         // A mesh of mostly unused points goes the slow way: its homes would be many times its size.
         homes_(vertex_count <= triangles.size() ? vertex_count : 0) {
-    for (Home& home : homes_)
-      for (Slot& slot : home.slots) slot = {kNoIndex, kNoIndex};
+    pace.for_each(homes_.size(), [&](std::size_t v) {
+      for (Slot& slot : homes_[v].slots) slot = {kNoIndex, kNoIndex};
+    });
     edges_.of_half_edges.resize(triangles.size());
     // Room for as many borders as most meshes have.
     make_room(triangles.size() / 2 + triangles.size() / 16 + kPerFace);
   }
 
-  Result<Edges> run(const Budget& budget) {
+  Edges run() {
     mark_hubs();
     constexpr Index kStride = 3 * kFacesPerPoll;
     const auto end = static_cast<Index>(triangles_.size());
     for (Index begin = 0; begin < end; begin += std::min(kStride, end - begin)) {
-      if (auto stop = budget.poll()) return *stop;
+      pace_.spend(kStride);
       join_faces(begin, begin + std::min(kStride, end - begin));
     }
-    make_room(count_);
-    edges_.set_kinds();
+    edges_.vertices.resize(count_);
+    edges_.sides.resize(count_);
+    edges_.set_kinds(pace_);
     return std::move(edges_);
   }
 
@@ -56,8 +60,14 @@ class EdgeFinder {
   static unsigned first_slot(Index far) { return far * 0x9e3779b1u >> 29; }
 
   void make_room(Count edges) {
-    edges_.vertices.resize(edges);
-    edges_.sides.resize(edges);
+    for (auto* array : {&edges_.vertices, &edges_.sides}) {
+      Buffer<std::array<Index, 2>> larger(edges);
+      pace_.in_blocks(array->size(), [&](Count begin, Count end) {
+        std::copy_n(array->begin() + static_cast<std::ptrdiff_t>(begin), end - begin,
+                    larger.begin() + static_cast<std::ptrdiff_t>(begin));
+      });
+      *array = std::move(larger);
+    }
   }
 
   // Half-edges [begin, end).
@@ -112,7 +122,7 @@ class EdgeFinder {
     Index& side = fast.sides[e][a > b];
     fast.of_half_edges[h] = e;
     if (side != kNoIndex) [[unlikely]] {
-      edges_.non_manifold.push_back(e);
+      if (edges_.non_manifold.empty() || edges_.non_manifold.back() != e) edges_.non_manifold.push_back(e);
       return count;
     }
     side = h;
@@ -144,15 +154,15 @@ class EdgeFinder {
   Index edge_elsewhere(Index h, Index low, Index high) {
     if (!is_hub(low)) return edge_at(low, high);
     if (!is_hub(high)) return edge_at(high, low);
-    const HubEdge& edge = between_hubs_[next_between_hubs_++];  // half-edges come in ascending order
-    return edge.first == h ? count_ : edges_.of_half_edges[edge.first];
+    const Index first = first_along_[next_between_hubs_++];  // half-edges come in ascending order
+    return first == h ? count_ : edges_.of_half_edges[first];
   }
   Index edge_at(Index home, Index far) {
     if (Slot* slot = homes_.empty() ? nullptr : next_slot(homes_[home], far)) {
       if (slot->far == kNoIndex) *slot = {far, count_};
       return slot->edge;
     }
-    if (chains_.empty()) chains_.assign(vertex_count(), kNoIndex);
+    if (chains_.empty()) pace_.fill(chains_, vertex_count(), kNoIndex);
     for (Index k = chains_[home]; k != kNoIndex; k = more_[k].next)
       if (more_[k].far == far) return more_[k].edge;
     more_.push_back({far, count_, chains_[home]});
@@ -167,29 +177,54 @@ class EdgeFinder {
   // A hub's slots are all taken, by edges to nowhere.
   void mark_hubs() {
     Count hubs = 0;
-    for (Index v = 0; v < vertex_count(); ++v) {
-      if (!is_hub(v)) continue;
+    pace_.for_each(static_cast<Index>(vertex_count()), [&](Index v) {
+      if (!is_hub(v)) return;
       ++hubs;
-      if (homes_.empty()) continue;
+      if (homes_.empty()) return;
       for (Slot& slot : homes_[v].slots) slot.far = kNowhere;
-    }
-    if (hubs > 1) sort_between_hubs();
+    });
+    if (hubs > 1) match_between_hubs();
   }
-  void sort_between_hubs() {
-    for (Index h = 0; h < triangles_.size(); ++h) {
+  // Calls f(half-edge, lower end, higher end) for those between two hubs, ascending.
+  template <class F>
+  void for_each_between_hubs(F&& f) const {
+    pace_.for_each(static_cast<Index>(triangles_.size()), [&](Index h) {
       const Index a = triangles_[h], b = end_of(h);
-      if (is_hub(a) && is_hub(b)) between_hubs_.push_back({std::min(a, b), std::max(a, b), h, h});
-    }
-    std::ranges::sort(between_hubs_, {},
-                      [](const HubEdge& x) { return std::tuple(x.low, x.high, x.half_edge); });
-    for (std::size_t k = 1; k < between_hubs_.size(); ++k)
-      if (between_hubs_[k].low == between_hubs_[k - 1].low &&
-          between_hubs_[k].high == between_hubs_[k - 1].high)
-        between_hubs_[k].first = between_hubs_[k - 1].first;
-    std::ranges::sort(between_hubs_, {}, &HubEdge::half_edge);
+      if (is_hub(a) && is_hub(b)) f(h, std::min(a, b), std::max(a, b));
+    });
+  }
+  // Sorts them by counting, by their higher ends and then by their lower ones.
+  void match_between_hubs() {
+    Buffer<Index> half_edges, order, by_end, ends;
+    Count count = 0;
+    for_each_between_hubs([&](Index, Index, Index) { ++count; });
+    half_edges.reserve(count);
+    for_each_between_hubs([&](Index h, Index, Index) { half_edges.push_back(h); });
+    const auto low = [&](Index k) { return std::min(triangles_[half_edges[k]], end_of(half_edges[k])); };
+    const auto high = [&](Index k) { return std::max(triangles_[half_edges[k]], end_of(half_edges[k])); };
+    order.reserve(count);
+    pace_.for_each(static_cast<Index>(count), [&](Index k) { order.push_back(k); });
+    by_end.resize(count);
+    const auto sort_by = [&](auto&& key) {
+      pace_.fill(ends, vertex_count() + 1, 0);
+      pace_.for_each(count, [&](Count k) { ++ends[key(order[k]) + 1]; });
+      pace_.for_each(vertex_count(), [&](Count v) { ends[v + 1] += ends[v]; });
+      pace_.for_each(count, [&](Count k) { by_end[ends[key(order[k])]++] = order[k]; });
+      order.swap(by_end);
+    };
+    sort_by(high);
+    sort_by(low);
+    first_along_.resize(count);
+    Index first = 0;  // of those along the same edge
+    pace_.for_each(count, [&](Count at) {
+      const Index k = order[at];
+      if (at == 0 || low(k) != low(first) || high(k) != high(first)) first = k;
+      first_along_[k] = half_edges[first];
+    });
   }
 
   std::span<const Index> triangles_, corner_offsets_;
+  const Pace& pace_;
   Edges edges_;
   Index count_ = 0;
   Buffer<Home> homes_;  // per vertex
@@ -198,10 +233,8 @@ class EdgeFinder {
   };
   std::vector<Index> chains_;  // per vertex, once one has more edges than slots: the last of them in more_
   std::vector<More> more_;
-  struct HubEdge {
-    Index low, high, half_edge, first;  // first: the lowest half-edge along the same edge
-  };
-  std::vector<HubEdge> between_hubs_;  // ascending half-edges
+  // Of every half-edge between two hubs, ascending: the lowest one along the same edge.
+  Buffer<Index> first_along_;
   std::size_t next_between_hubs_ = 0;
 };
 
@@ -211,23 +244,27 @@ void Edges::attach(Index h, Index from, Index e) {
   Index& side = sides[e][from == vertices[e][0] ? 0 : 1];
   if (side == kNoIndex)
     side = h;
-  else
+  else if (non_manifold.empty() || non_manifold.back() != e)
     non_manifold.push_back(e);
 }
 
-void Edges::set_kinds() {
+void Edges::set_kinds(const Pace& pace) {
   kinds.resize(sides.size());
-  std::ranges::transform(sides, kinds.begin(), [](const std::array<Index, 2>& side) {
-    return side[0] == kNoIndex || side[1] == kNoIndex ? EdgeKind::border : EdgeKind::manifold;
+  pace.for_each(kinds.size(), [&](std::size_t e) {
+    kinds[e] =
+        sides[e][0] == kNoIndex || sides[e][1] == kNoIndex ? EdgeKind::border : EdgeKind::manifold;
   });
-  std::ranges::sort(non_manifold);
-  non_manifold.erase(std::unique(non_manifold.begin(), non_manifold.end()), non_manifold.end());
-  for (const Index e : non_manifold) kinds[e] = EdgeKind::non_manifold;
+  if (non_manifold.empty()) return;
+  pace.for_each(non_manifold.size(), [&](std::size_t k) { kinds[non_manifold[k]] = EdgeKind::non_manifold; });
+  non_manifold.clear();
+  pace.for_each(count(), [&](Index e) {
+    if (kinds[e] == EdgeKind::non_manifold) non_manifold.push_back(e);
+  });
 }
 
-Result<Edges> find_edges(Index vertex_count, std::span<const Index> triangles,
-                         std::span<const Index> corner_offsets, const Budget& budget) {
-  return EdgeFinder(vertex_count, triangles, corner_offsets).run(budget);
+Edges find_edges(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
+                 const Pace& pace) {
+  return EdgeFinder(vertex_count, triangles, corner_offsets, pace).run();
 }
 
 }  // namespace subdivd

@@ -5,10 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/base/budget.h"
 #include "core/base/buffer.h"
 #include "core/base/index.h"
-#include "core/base/result.h"
+#include "core/base/pace.h"
 
 namespace subdivd {
 
@@ -31,13 +30,12 @@ struct Edges {
   // beginning.
   void attach(Index h, Index from, Index e);
   // When all are attached.
-  void set_kinds();
+  void set_kinds(const Pace& pace = {});
 };
 
 // Edges are numbered in the order in which the faces, corner by corner, first run along them. Row v of
-// `corner_offsets` is as long as v has corners. Linear time, but edges between two vertices of more than 64
-// corners each are sorted. Stops when the budget is polled dry.
-Result<Edges> find_edges(Index vertex_count, std::span<const Index> triangles,
-                         std::span<const Index> corner_offsets, const Budget& budget);
+// `corner_offsets` is as long as v has corners. Linear time.
+Edges find_edges(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
+                 const Pace& pace);
 
 }  // namespace subdivd

@@ -1,20 +1,24 @@
 #include "core/mesh/repair.h"
 
 #include <algorithm>
-#include <numeric>
-#include <set>
+#include <cassert>
+#include <span>
 #include <utility>
 
+#include "core/base/pace.h"
+#include "core/mesh/creases.h"
 #include "core/mesh/scan.h"
 
 namespace subdivd {
 namespace {
 
 // First corner of every face, and one past the last.
-std::vector<Count> corner_offsets(const ControlMesh& mesh) {
-  std::vector<Count> offsets(mesh.face_count() + 1, 0);
-  for (Count f = 0; f < mesh.face_count(); ++f)
+std::vector<Count> corner_offsets(const ControlMesh& mesh, const Pace& pace) {
+  std::vector<Count> offsets;
+  pace.fill(offsets, mesh.face_count() + 1, 0);
+  pace.for_each(mesh.face_count(), [&](Count f) {
     offsets[f + 1] = offsets[f] + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]);
+  });
   return offsets;
 }
 
@@ -22,22 +26,25 @@ bool repeats_a_vertex(const Index* v) { return v[0] == v[1] || v[1] == v[2] || v
 
 // Rearranges all that hangs on faces and corners. `faces`: old face of every new one; `corners`: old corner
 // of every new one.
-void rearrange(ControlMesh& mesh, const std::vector<Index>& faces, const std::vector<Index>& corners) {
+void rearrange(ControlMesh& mesh, const std::vector<Index>& faces, const std::vector<Index>& corners,
+               const Pace& pace) {
   const Count old_faces = mesh.face_count(), old_corners = mesh.face_vertex_indices.size();
-  std::vector<unsigned char> was_hole(old_faces, 0);
-  for (Index f : mesh.hole_indices) was_hole[f] = 1;
+  std::vector<unsigned char> was_hole;
+  pace.fill(was_hole, old_faces, 0);
+  pace.for_each(mesh.hole_indices.size(), [&](Count k) { was_hole[mesh.hole_indices[k]] = 1; });
   mesh.hole_indices.clear();
-  for (Index f = 0; f < faces.size(); ++f)
+  pace.for_each(static_cast<Index>(faces.size()), [&](Index f) {
     if (was_hole[faces[f]] != 0) mesh.hole_indices.push_back(f);
+  });
 
-  auto reindex = [](std::vector<Index>& indices, const std::vector<Index>& order, Count old_size) {
+  auto reindex = [&](std::vector<Index>& indices, const std::vector<Index>& order, Count old_size) {
     if (indices.empty()) {  // values in order: name them before the order changes
-      indices.resize(old_size);
-      std::iota(indices.begin(), indices.end(), Index{0});
+      indices.reserve(old_size);
+      pace.for_each(old_size, [&](Count k) { indices.push_back(static_cast<Index>(k)); });
     }
     std::vector<Index> moved;
     moved.reserve(order.size());
-    for (Index from : order) moved.push_back(indices[from]);
+    pace.for_each(order.size(), [&](Count k) { moved.push_back(indices[order[k]]); });
     indices = std::move(moved);
   };
   for (Primvar& primvar : mesh.primvars) {
@@ -50,8 +57,9 @@ void rearrange(ControlMesh& mesh, const std::vector<Index>& faces, const std::ve
 
 // The parts of check() that rearranging relies on; the rest of a fault-ridden mesh stays as it is for
 // check().
-bool can_be_rearranged(const ControlMesh& mesh) {
+bool can_be_rearranged(const ControlMesh& mesh, const Pace& pace) {
   const Count faces = mesh.face_count();
+  pace.spend(mesh.hole_indices.size() + mesh.primvars.size() + mesh.render_meshes.size());
   if (std::ranges::any_of(mesh.hole_indices, [&](Index f) { return f >= faces; })) return false;
   for (const Primvar& primvar : mesh.primvars) {
     const bool uniform = primvar.interpolation == Interpolation::uniform;
@@ -68,47 +76,54 @@ bool can_be_rearranged(const ControlMesh& mesh) {
   return true;
 }
 
-std::pair<Index, Index> edge_key(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
-// Creases along edges that only dropped faces had: cut out, the rest kept as creases of single edges.
-void drop_creases(ControlMesh& mesh, std::set<std::pair<Index, Index>> vanished) {
-  for (Count h = 0; h < mesh.face_vertex_indices.size() && !vanished.empty(); ++h) {
-    const Count next = h % 3 == 2 ? h - 2 : h + 1;
-    vanished.erase(edge_key(mesh.face_vertex_indices[h], mesh.face_vertex_indices[next]));
-  }
+bool creases_add_up(const ControlMesh& mesh) {
   Count points = 0, edges = 0;
   for (Index length : mesh.crease_lengths) {
-    if (length < 2) return;
+    if (length < 2) return false;
     points += length;
     edges += length - 1;
   }
-  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
-  if (vanished.empty() || points != mesh.crease_indices.size() ||
-      (!per_crease && mesh.crease_sharpnesses.size() != edges))
-    return;
+  return points == mesh.crease_indices.size() &&
+         (mesh.crease_sharpnesses.size() == mesh.crease_lengths.size() ||
+          mesh.crease_sharpnesses.size() == edges);
+}
+
+// Creases along edges that only dropped faces had: cut out, the rest kept as creases of single edges.
+void drop_creases(ControlMesh& mesh, std::span<const Index> dropped_triangles, const Pace& pace) {
+  if (mesh.crease_lengths.empty() || !creases_add_up(mesh)) return;
+  const auto points = static_cast<Index>(mesh.point_count());
+  const std::vector<VertexPair> edges = crease_edges(mesh, pace);
+  const auto were = are_edges(points, dropped_triangles, edges, pace);
+  const auto are = are_edges(points, mesh.face_vertex_indices, edges, pace);
+  const auto vanished = [&](Count k) { return edges[k][0] == edges[k][1] || (were[k] != 0 && are[k] == 0); };
+  bool any = false;
+  pace.for_each(edges.size(), [&](Count k) { any |= vanished(k); });
+  if (!any) return;
   std::vector<Index> indices, lengths;
   std::vector<float> sharpnesses;
-  Count point = 0, edge = 0;
-  for (Count crease = 0; crease < mesh.crease_lengths.size(); point += mesh.crease_lengths[crease++])
-    for (Index k = 0; k + 1 < mesh.crease_lengths[crease]; ++k, ++edge) {
-      const Index a = mesh.crease_indices[point + k], b = mesh.crease_indices[point + k + 1];
-      if (a == b || vanished.contains(edge_key(a, b))) continue;
-      indices.insert(indices.end(), {a, b});
-      lengths.push_back(2);
-      sharpnesses.push_back(mesh.crease_sharpnesses[per_crease ? crease : edge]);
-    }
+  Count edge = 0;
+  for_each_crease_edge(mesh, [&](Count, Index a, Index b, float sharpness) {
+    pace.spend(1);
+    if (vanished(edge++)) return;
+    indices.insert(indices.end(), {a, b});
+    lengths.push_back(2);
+    sharpnesses.push_back(sharpness);
+  });
   mesh.crease_indices = std::move(indices);
   mesh.crease_lengths = std::move(lengths);
   mesh.crease_sharpnesses = std::move(sharpnesses);
 }
 
 // A render mesh's face goes when the control face goes; one that repeats a render vertex repeats a point too.
-void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& dropped) {
-  std::vector<Index> kept_before(dropped.size() + 1, 0);
-  for (std::size_t f = 0; f < dropped.size(); ++f) kept_before[f + 1] = kept_before[f] + (dropped[f] == 0);
+void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& dropped, const Pace& pace) {
+  std::vector<Index> kept_before;
+  pace.fill(kept_before, dropped.size() + 1, 0);
+  pace.for_each(dropped.size(), [&](Count f) { kept_before[f + 1] = kept_before[f] + (dropped[f] == 0); });
   for (RenderMesh& render : mesh.render_meshes) {
     std::vector<Index> indices;
+    pace.spend(1);
     for (Index f = render.face_begin; f < render.face_end; ++f) {
+      pace.spend(1);
       const auto first = render.indices.begin() + std::ptrdiff_t{3} * (f - render.face_begin);
       if (dropped[f] == 0) indices.insert(indices.end(), first, first + 3);
     }
@@ -118,54 +133,76 @@ void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& drop
   }
 }
 
-}  // namespace
-
-Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, [[maybe_unused]] const Budget& budget) {
-  const bool triangles = mesh.face_vertex_indices.size() == 3 * mesh.face_count() &&
-                         std::ranges::all_of(mesh.face_vertex_counts, [](Index count) { return count == 3; });
-  if (!triangles) {
-    if (auto fine = mesh.check(); !fine) return std::move(fine).error();
-  }
-  if (!any_repeats(mesh.face_vertex_indices)) return std::vector<Index>{};
-  const Count faces = mesh.face_count();
-  std::vector<unsigned char> dropped(faces, 0);
-  std::set<std::pair<Index, Index>> edges;
-  for (Count f = 0; f < faces; ++f) {
-    const Index* v = mesh.face_vertex_indices.data() + 3 * f;
-    if (!repeats_a_vertex(v)) continue;
-    dropped[f] = 1;
-    if (!mesh.crease_indices.empty())
-      for (int k = 0; k < 3; ++k) edges.insert(edge_key(v[k], v[(k + 1) % 3]));
-  }
-  const auto count = static_cast<Count>(std::ranges::count(dropped, 1));
-  if (!can_be_rearranged(mesh)) {
-    auto fine = mesh.check();  // names the fault
-    assert(!fine.ok());
-    return std::move(fine).error();
-  }
-  if (count == faces)
-    return Error{ErrorCode::not_a_triangle,
-                 "every face repeats a vertex: nothing is left to refine",
-                 {"faceVertexIndices"},
-                 0,
-                 0};
-  std::vector<Index> kept, corners;
-  for (Index f = 0; f < faces; ++f)
-    if (dropped[f] == 0) {
-      kept.push_back(f);
-      corners.insert(corners.end(), {3 * f, 3 * f + 1, 3 * f + 2});
-    }
-  drop_render_faces(mesh, dropped);
-  rearrange(mesh, kept, corners);
-  drop_creases(mesh, std::move(edges));
-  return kept;
+Error nothing_left() {
+  return Error{ErrorCode::not_a_triangle,
+               "every face repeats a vertex: nothing is left to refine",
+               {"faceVertexIndices"},
+               0,
+               0};
 }
 
-Result<std::vector<Index>> triangulate(ControlMesh& mesh, [[maybe_unused]] const Budget& budget) {
-  if (std::ranges::all_of(mesh.face_vertex_counts, [](Index count) { return count == 3; }))
-    return std::vector<Index>{};
-  const std::vector<Count> offsets = corner_offsets(mesh);
-  for (Count f = 0; f < mesh.face_count(); ++f)
+// The fault that check() finds, or the budget's.
+Error fault_of(const ControlMesh& mesh, const Budget& budget) {
+  auto fine = mesh.check(budget);
+  assert(!fine.ok());
+  return std::move(fine).error();
+}
+
+bool has_repeats(std::span<const Index> triangles, const Pace& pace) {
+  bool found = false;
+  pace.in_blocks(triangles.size() / 3, [&](Count begin, Count end) {
+    if (!found) found = any_repeats(triangles.subspan(3 * begin, 3 * (end - begin)));
+  });
+  return found;
+}
+
+bool has_triangles_only(const ControlMesh& mesh, const Pace& pace) {
+  bool triangles = true;
+  pace.for_each(mesh.face_vertex_counts.size(),
+                [&](Count f) { triangles &= mesh.face_vertex_counts[f] == 3; });
+  return triangles;
+}
+
+}  // namespace
+
+Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<Index>> {
+    const bool triangles =
+        mesh.face_vertex_indices.size() == 3 * mesh.face_count() && has_triangles_only(mesh, pace);
+    if (!triangles) {
+      if (auto fine = mesh.check(budget); !fine) return std::move(fine).error();
+    }
+    if (!has_repeats(mesh.face_vertex_indices, pace)) return std::vector<Index>{};
+    const Count faces = mesh.face_count();
+    std::vector<unsigned char> dropped;
+    pace.fill(dropped, faces, 0);
+    std::vector<Index> dropped_triangles, kept, corners;
+    pace.for_each(static_cast<Index>(faces), [&](Index f) {
+      const Index* v = mesh.face_vertex_indices.data() + Count{3} * f;
+      if (!repeats_a_vertex(v)) {
+        kept.push_back(f);
+        corners.insert(corners.end(), {3 * f, 3 * f + 1, 3 * f + 2});
+        return;
+      }
+      dropped[f] = 1;
+      if (!mesh.crease_indices.empty()) dropped_triangles.insert(dropped_triangles.end(), v, v + 3);
+    });
+    if (!can_be_rearranged(mesh, pace)) return fault_of(mesh, budget);
+    if (kept.empty()) return nothing_left();
+    drop_render_faces(mesh, dropped, pace);
+    rearrange(mesh, kept, corners, pace);
+    drop_creases(mesh, dropped_triangles, pace);
+    return kept;
+  });
+}
+
+namespace {
+
+// Why triangulate() refuses the mesh as it is.
+Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Budget& budget,
+                                const Pace& pace) {
+  for (Count f = 0; f < mesh.face_count(); ++f) {
+    pace.spend(1);
     if (mesh.face_vertex_counts[f] < 3)
       return Error{ErrorCode::not_a_triangle,
                    "face " + std::to_string(f) + " has " + std::to_string(mesh.face_vertex_counts[f]) +
@@ -173,25 +210,40 @@ Result<std::vector<Index>> triangulate(ControlMesh& mesh, [[maybe_unused]] const
                    {"faceVertexCounts", std::uint64_t{f}},
                    0,
                    0};
-  if (offsets.back() != mesh.face_vertex_indices.size() || !can_be_rearranged(mesh)) {
-    if (auto fine = mesh.check(); !fine && fine.error().code != ErrorCode::not_a_triangle)
-      return std::move(fine).error();
-    // check() meets the larger faces first: say what stands behind them.
-    return Error{
-        ErrorCode::wrong_length,
-        "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
-        {"primvars"},
-        0,
-        0};
   }
-  std::vector<Index> faces, corners;
-  for (Index f = 0; f + Count{1} < offsets.size(); ++f)
-    for (Count k = offsets[f] + 1; k + 1 < offsets[f + 1]; ++k) {
-      faces.push_back(f);
-      for (Count corner : {offsets[f], k, k + 1}) corners.push_back(static_cast<Index>(corner));
-    }
-  rearrange(mesh, faces, corners);
-  return faces;
+  if (corners == mesh.face_vertex_indices.size() && can_be_rearranged(mesh, pace)) return {};
+  if (auto fine = mesh.check(budget); !fine && fine.error().code != ErrorCode::not_a_triangle)
+    return std::move(fine).error();
+  // check() meets the larger faces first: say what stands behind them.
+  return Error{
+      ErrorCode::wrong_length,
+      "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
+      {"primvars"},
+      0,
+      0};
+}
+
+}  // namespace
+
+Result<std::vector<Index>> triangulate(ControlMesh& mesh, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<Index>> {
+    if (has_triangles_only(mesh, pace)) return std::vector<Index>{};
+    const std::vector<Count> offsets = corner_offsets(mesh, pace);
+    if (auto fine = check_larger_faces(mesh, offsets.back(), budget, pace); !fine)
+      return std::move(fine).error();
+    const Count triangles = offsets.back() - 2 * mesh.face_count();
+    std::vector<Index> faces, corners;
+    faces.reserve(triangles);
+    corners.reserve(3 * triangles);
+    for (Index f = 0; f + Count{1} < offsets.size(); ++f)
+      for (Count k = offsets[f] + 1; k + 1 < offsets[f + 1]; ++k) {
+        pace.spend(2);
+        faces.push_back(f);
+        for (Count corner : {offsets[f], k, k + 1}) corners.push_back(static_cast<Index>(corner));
+      }
+    rearrange(mesh, faces, corners, pace);
+    return faces;
+  });
 }
 
 }  // namespace subdivd

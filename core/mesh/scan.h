@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 
 namespace subdivd {
 namespace detail {
@@ -77,13 +78,15 @@ inline bool any_repeats(std::span<const Index> triangles) {
 
 // Calls f(k) for every element that is not zero, ascending; where there are few, at the speed of the memory.
 template <class T, class F>
-void for_each_set(std::span<const T> values, F&& f) {
+void for_each_set(std::span<const T> values, F&& f, const Pace& pace = {}) {
   constexpr std::size_t kBlock = 64;
   for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, values.size());
+    pace.spend(2);
     unsigned any = 0;
     for (std::size_t k = begin; k < end; ++k) any |= values[k] != T{};
     if (any == 0) continue;
+    pace.spend(end - begin);
     for (std::size_t k = begin; k < end; ++k)
       if (values[k] != T{}) f(k);
   }

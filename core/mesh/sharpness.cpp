@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/mesh/creases.h"
 #include "core/mesh/scan.h"
 
 namespace subdivd {
@@ -9,34 +10,34 @@ namespace {
 
 float clamped(float s) { return std::min(s, kInfiniteSharpness); }
 
-Index edge_between(const Topology& topology, Index a, Index b) {
-  // From the end with fewer edges: a hub of a million edges must not make every crease at it cost a million.
-  if (topology.vertex_edges(b).size() < topology.vertex_edges(a).size()) std::swap(a, b);
-  for (Index e : topology.vertex_edges(a))
-    if (topology.other_end(e, a) == b) return e;
-  return kNoIndex;
-}
-
 // Sharpness given by the caller alone.
-std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology& topology) {
-  std::vector<float> edges(topology.edge_count(), 0.0f);
-  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
-  std::size_t point = 0, edge = 0;
-  for (std::size_t crease = 0; crease < mesh.crease_lengths.size(); ++crease) {
-    const Index length = mesh.crease_lengths[crease];
-    for (Index k = 0; k + 1 < length; ++k, ++edge) {
-      const Index e =
-          edge_between(topology, mesh.crease_indices[point + k], mesh.crease_indices[point + k + 1]);
-      if (e != kNoIndex) edges[e] = clamped(mesh.crease_sharpnesses[per_crease ? crease : edge]);
-    }
-    point += length;
-  }
+std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+  std::vector<float> edges;
+  pace.fill(edges, topology.edge_count(), 0.0f);
+  if (mesh.crease_lengths.empty()) return edges;
+  const std::vector<Index> along = edges_between(topology, crease_edges(mesh, pace), pace);
+  Count k = 0;
+  for_each_crease_edge(mesh, [&](Count, Index, Index, float sharpness) {
+    pace.spend(1);
+    if (const Index e = along[k++]; e != kNoIndex) edges[e] = clamped(sharpness);
+  });
   return edges;
 }
 
-bool inside_non_manifold_crease(const Topology& topology, Index v) {
+DecaySum sum_of(std::span<const float> around, const Pace& pace) {
+  DecaySum all;
+  pace.for_each(around.size(), [&](std::size_t k) {
+    if (!is_semi_sharp(around[k])) return;
+    all.sum += around[k];
+    ++all.count;
+  });
+  return all;
+}
+
+bool inside_non_manifold_crease(const Topology& topology, Index v, const Pace& pace) {
   Index non_manifold = 0, boundary = 0;
   for (Index e : topology.vertex_edges(v)) {
+    pace.spend(1);
     non_manifold += topology.is_non_manifold_edge(e);
     boundary += topology.is_boundary(e);
   }
@@ -65,24 +66,26 @@ float decay(float s) {
   return s > 1 ? s - 1 : 0;
 }
 
-void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child) {
-  float sum = 0;
-  Index count = 0;
-  if (method == CreaseMethod::chaikin)
-    for (float s : parent)
-      if (is_semi_sharp(s)) {
-        sum += s;
-        ++count;
-      }
-  for (std::size_t k = 0; k < parent.size(); ++k) {
-    const float s = parent[k];
-    if (count < 2 || !is_semi_sharp(s)) {
-      child[k] = decay(s);
-    } else {
-      const float mean_of_others = (sum - s) / static_cast<float>(count - 1);
-      child[k] = std::max(0.75f * s + 0.25f * mean_of_others - 1.0f, 0.0f);
-    }
+float decay_beside(float s, DecaySum all) {
+  if (all.count < 2 || !is_semi_sharp(s)) return decay(s);
+  const float mean_of_others = (all.sum - s) / static_cast<float>(all.count - 1);
+  return std::max(0.75f * s + 0.25f * mean_of_others - 1.0f, 0.0f);
+}
+
+void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child,
+                         const Pace& pace) {
+  DecaySum all;
+  if (method == CreaseMethod::chaikin) all = sum_of(parent, pace);
+  pace.for_each(parent.size(), [&](std::size_t k) { child[k] = decay_beside(parent[k], all); });
+}
+
+std::vector<DecaySum> decay_sums(std::vector<float> around, const Pace& pace) {
+  std::vector<DecaySum> sums;
+  for (DecaySum all = sum_of(around, pace); all.count > 0; all = sum_of(around, pace)) {
+    sums.push_back(all);
+    pace.for_each(around.size(), [&](std::size_t k) { around[k] = decay_beside(around[k], all); });
   }
+  return sums;
 }
 
 float fractional_weight(CreaseMethod method, float parent_vertex, float child_vertex,
@@ -103,40 +106,56 @@ float fractional_weight(CreaseMethod method, float parent_vertex, float child_ve
   return count == 0 ? 0.0f : std::min(sum / static_cast<float>(count), 1.0f);
 }
 
-Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology) {
-  Sharpness result{tagged_edges(mesh, topology), std::vector<float>(topology.vertex_count(), 0.0f)};
+Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+  Sharpness result{tagged_edges(mesh, topology, pace), {}};
+  pace.fill(result.vertices, topology.vertex_count(), 0.0f);
   const bool pin_corners = mesh.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
   const auto is_border_corner = [&](Index v) {
     return topology.vertex_corners(v).size() == 1 && topology.vertex_edges(v).size() == 2;
   };
-  for_each_set(topology.edge_kinds(), [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; });
-  for (std::size_t k = 0; k < mesh.corner_indices.size(); ++k)
+  const auto kinds = topology.edge_kinds();
+  for_each_set(kinds, [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; }, pace);
+  pace.for_each(mesh.corner_indices.size(), [&](std::size_t k) {
     result.vertices[mesh.corner_indices[k]] = clamped(mesh.corner_sharpnesses[k]);
-  if (pin_corners)
-    for_each_set(topology.edge_kinds(), [&](std::size_t e) {
-      for (const Index v : topology.edge_vertices(static_cast<Index>(e)))
-        if (is_border_corner(v)) result.vertices[v] = kInfiniteSharpness;
-    });
-  for_each_set(topology.non_manifold_vertices(), [&](std::size_t k) {
-    const auto v = static_cast<Index>(k);
-    if (!is_border_corner(v) && !inside_non_manifold_crease(topology, v))
-      result.vertices[v] = kInfiniteSharpness;
   });
+  if (pin_corners)
+    for_each_set(
+        kinds,
+        [&](std::size_t e) {
+          for (const Index v : topology.edge_vertices(static_cast<Index>(e)))
+            if (is_border_corner(v)) result.vertices[v] = kInfiniteSharpness;
+        },
+        pace);
+  for_each_set(
+      topology.non_manifold_vertices(),
+      [&](std::size_t k) {
+        const auto v = static_cast<Index>(k);
+        if (!is_border_corner(v) && !inside_non_manifold_crease(topology, v, pace))
+          result.vertices[v] = kInfiniteSharpness;
+      },
+      pace);
   return result;
 }
 
-std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology& topology) {
-  std::vector<unsigned char> holes(topology.face_count(), 0);
-  for (Index f : mesh.hole_indices) holes[f] = 1;
+std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+  std::vector<unsigned char> holes;
+  pace.fill(holes, topology.face_count(), 0);
+  pace.for_each(mesh.hole_indices.size(), [&](std::size_t k) { holes[mesh.hole_indices[k]] = 1; });
   if (mesh.interpolate_boundary != BoundaryInterpolation::none) return holes;
-  const std::vector<float> tagged = tagged_edges(mesh, topology);
-  for (Index v = 0; v < topology.vertex_count(); ++v) {
-    const bool open = std::ranges::any_of(topology.vertex_edges(v), [&](Index e) {
-      return topology.is_boundary(e) && !is_infinite(tagged[e]);
-    });
-    if (!open) continue;
-    for (Index corner : topology.vertex_corners(v)) holes[corner / 3] = 1;
-  }
+  const std::vector<float> tagged = tagged_edges(mesh, topology, pace);
+  std::vector<unsigned char> open;  // vertices
+  pace.fill(open, topology.vertex_count(), 0);
+  for_each_set(
+      topology.edge_kinds(),
+      [&](std::size_t k) {
+        const auto e = static_cast<Index>(k);
+        if (!topology.is_boundary(e) || is_infinite(tagged[e])) return;
+        for (const Index v : topology.edge_vertices(e)) open[v] = 1;
+      },
+      pace);
+  pace.for_each(topology.face_count(), [&](Index f) {
+    for (Index k = 0; k < 3; ++k) holes[f] |= open[topology.corner_vertex(3 * f + k)];
+  });
   return holes;
 }
 

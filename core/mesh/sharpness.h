@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/topology.h"
 
@@ -30,7 +31,18 @@ float decay(float s);
 // Sharpness one level on of the child edges at a vertex, from the edges around it (any order, same order in
 // `child`). uniform: decay of each. chaikin, for semi-sharp edges: 3/4 of the edge's own + 1/4 of the mean of
 // the other semi-sharp edges' sharpness, minus 1.
-void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child);
+void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child,
+                         const Pace& pace = {});
+
+// What Chaikin's rule has to know of all edges at a vertex to decay one of them: the sum and the number of the
+// semi-sharp ones. The way of one that is semi-sharp, one level on.
+struct DecaySum {
+  float sum = 0;
+  Index count = 0;
+};
+float decay_beside(float s, DecaySum all);
+// Those sums at this level and the following ones, until nothing at the vertex is semi-sharp: at most 10.
+std::vector<DecaySum> decay_sums(std::vector<float> around, const Pace& pace = {});
 
 // Weight of the parent's rule where parent and child differ: the mean of the sharpnesses that run out at this
 // step, at most 1.
@@ -45,10 +57,11 @@ struct Sharpness {
 // and so are pinned border corners and non-manifold vertices, but for those inside a non-manifold crease
 // (exactly two non-manifold edges, no border, and more faces than edges). Creases along pairs that are no
 // edges are skipped.
-Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology);
+Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology, const Pace& pace = {});
 
 // 1 for faces that are not output: holeIndices, and with interpolateBoundary none every face at a border
 // vertex that has a border edge the caller did not make infinitely sharp.
-std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology& topology);
+std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology& topology,
+                                      const Pace& pace = {});
 
 }  // namespace subdivd

@@ -1,30 +1,22 @@
 #include "core/mesh/topology.h"
 
 #include <cstdint>
+#include <functional>
 
 #include "core/mesh/scan.h"
 
 namespace subdivd {
-namespace {
 
-// Between two polls of the budget.
-constexpr Index kVerticesPerPoll = 1 << 15;
-
-}  // namespace
-
-Topology::Topology(Index vertex_count, std::vector<Index> triangles)
-    : Topology(std::move(*build(vertex_count, std::move(triangles), {}))) {}
+Topology::Topology(Index vertex_count, std::vector<Index> triangles, const Pace& pace)
+    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
+  Buffer<Index> first_corners = count_corners(pace);
+  edges_ = find_edges(vertex_count_, triangles_, vertex_corner_offsets_, pace);
+  connect(std::move(first_corners), pace);
+}
 
 Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangles, const Budget& budget) {
-  Topology topology;
-  topology.vertex_count_ = vertex_count;
-  topology.triangles_ = std::move(triangles);
-  Buffer<Index> first_corners = topology.count_corners();
-  auto edges = find_edges(vertex_count, topology.triangles_, topology.vertex_corner_offsets_, budget);
-  if (!edges) return std::move(edges).error();
-  topology.edges_ = std::move(*edges);
-  if (auto done = topology.connect(std::move(first_corners), budget); !done) return std::move(done).error();
-  return topology;
+  return stoppable(budget,
+                   [&](const Pace& pace) { return Topology(vertex_count, std::move(triangles), pace); });
 }
 
 Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
@@ -35,47 +27,56 @@ Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Inde
   edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
   for (Index h = 0; h < triangles_.size(); ++h) edges_.attach(h, triangles_[h], edges_.of_half_edges[h]);
   edges_.set_kinds();
-  (void)connect(count_corners(), {});  // an unlimited budget
+  connect(count_corners({}), {});
 }
 
 // Sets the lengths of the rows of corners; returns the lowest corner at every vertex, kNoIndex where there is
 // none, and once more behind the last vertex.
-Buffer<Index> Topology::count_corners() {
-  Buffer<Index> first(std::size_t{vertex_count_} + 1, kNoIndex);
-  vertex_corner_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
-  for (auto h = static_cast<Index>(triangles_.size()); h-- > 0;) {
-    const Index v = triangles_[h];
-    ++vertex_corner_offsets_[v + 1];
-    first[v] = h;
-  }
-  for (std::size_t v = 1; v < vertex_corner_offsets_.size(); ++v)
-    vertex_corner_offsets_[v] += vertex_corner_offsets_[v - 1];
+Buffer<Index> Topology::count_corners(const Pace& pace) {
+  Buffer<Index> first;
+  pace.fill(first, Count{vertex_count_} + 1, kNoIndex);
+  pace.fill(vertex_corner_offsets_, Count{vertex_count_} + 1, 0);
+  pace.in_blocks(triangles_.size(), [&](Count begin, Count end) {
+    const Count size = triangles_.size();  // from the last half-edge to the first
+    for (auto h = static_cast<Index>(size - begin); h-- > static_cast<Index>(size - end);) {
+      const Index v = triangles_[h];
+      ++vertex_corner_offsets_[v + 1];
+      first[v] = h;
+    }
+  });
+  pace.for_each(Count{vertex_count_},
+                [&](Count v) { vertex_corner_offsets_[v + 1] += vertex_corner_offsets_[v]; });
   return first;
 }
 
-Result<void> Topology::connect(Buffer<Index> first_corners, const Budget& budget) {
-  gather_crowds();
-  count_edges(first_corners);
-  if (auto stop = budget.poll()) return *stop;
-  if (auto done = go_round_vertices(first_corners, budget); !done) return done;
-  go_round_borders();
-  list_non_manifold();
-  return {};
+void Topology::connect(Buffer<Index> first_corners, const Pace& pace) {
+  gather_crowds(pace);
+  count_edges(first_corners, pace);
+  go_round_vertices(first_corners, pace);
+  go_round_borders(pace);
+  list_non_manifold(pace);
 }
 
-void Topology::gather_crowds() {
+// The half-edges of the non-manifold edges, edge by edge, sorted by counting.
+void Topology::gather_crowds(const Pace& pace) {
   const std::vector<Index>& crowded = edges_.non_manifold;
   if (crowded.empty()) return;
-  std::vector<std::pair<Index, Index>> members;  // position among the crowded, half-edge
-  for (Index h = 0; h < triangles_.size(); ++h)
+  Buffer<Index> row_of;  // of edges; set for the crowded ones
+  row_of.resize(edge_count());
+  pace.for_each(static_cast<Index>(crowded.size()), [&](Index k) { row_of[crowded[k]] = k; });
+  pace.fill(crowd_offsets_, crowded.size() + 1, 0);
+  const auto half_edges = static_cast<Index>(triangles_.size());
+  pace.for_each(half_edges, [&](Index h) {
+    if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e)) ++crowd_offsets_[row_of[e] + 1];
+  });
+  pace.for_each(crowded.size(), [&](std::size_t k) { crowd_offsets_[k + 1] += crowd_offsets_[k]; });
+  std::vector<Index> ends;
+  pace.copy(crowd_offsets_, ends);
+  pace.fill(crowd_half_edges_, crowd_offsets_.back(), 0);
+  pace.for_each(half_edges, [&](Index h) {
     if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e))
-      members.emplace_back(static_cast<Index>(std::ranges::lower_bound(crowded, e) - crowded.begin()), h);
-  std::ranges::sort(members);
-  crowd_offsets_.assign(crowded.size() + 1, 0);
-  for (const auto& [position, h] : members) {
-    crowd_half_edges_.push_back(h);
-    crowd_offsets_[position + 1] = static_cast<Index>(crowd_half_edges_.size());
-  }
+      crowd_half_edges_[ends[row_of[e]]++] = h;
+  });
 }
 
 std::span<const Index> Topology::crowd_of(Index e) const {
@@ -88,22 +89,25 @@ std::span<const Index> Topology::crowd_of(Index e) const {
 // takes the first corners from the vertices that are not closed fans.
 // Every corner is at two edges, and an edge is at as many of v's corners as it has faces: 2 for most, so v
 // has as many edges as corners, and half of (2 - faces) more for each that has not two.
-void Topology::count_edges(std::span<Index> first_corners) {
-  non_manifold_vertices_.assign(vertex_count_, 0);
-  vertex_edge_offsets_.assign(std::size_t{vertex_count_} + 1, 0);
-  for_each_set(edge_kinds(), [&](std::size_t e) {
-    const auto edge = static_cast<Index>(e);
-    for (const Index v : edges_.vertices[e]) {
-      vertex_edge_offsets_[v + 1] += 2 - static_cast<Index>(edge_half_edges(edge).size());  // modulo 2^32
-      if (!is_boundary(edge)) non_manifold_vertices_[v] = 1;
-      first_corners[v] = kNoIndex;
-    }
-  });
+void Topology::count_edges(std::span<Index> first_corners, const Pace& pace) {
+  pace.fill(non_manifold_vertices_, vertex_count_, 0);
+  pace.fill(vertex_edge_offsets_, Count{vertex_count_} + 1, 0);
+  for_each_set(
+      edge_kinds(),
+      [&](std::size_t e) {
+        const auto edge = static_cast<Index>(e);
+        for (const Index v : edges_.vertices[e]) {
+          vertex_edge_offsets_[v + 1] += 2 - static_cast<Index>(edge_half_edges(edge).size());  // modulo 2^32
+          if (!is_boundary(edge)) non_manifold_vertices_[v] = 1;
+          first_corners[v] = kNoIndex;
+        }
+      },
+      pace);
   std::int64_t more = 0;
-  for (Index v = 0; v < vertex_count_; ++v) {
+  pace.for_each(vertex_count_, [&](Index v) {
     more += static_cast<std::int32_t>(vertex_edge_offsets_[v + 1]);
     vertex_edge_offsets_[v + 1] = static_cast<Index>(vertex_corner_offsets_[v + 1] + more / 2);
-  }
+  });
 }
 
 // Goes counter-clockwise round a vertex whose edges all have two faces, and writes corners and edges.
@@ -122,13 +126,19 @@ class Topology::Walk {
   // To the end; whether it comes back to the start there and not before. It ends by counting: where a
   // corner's other side leads to is known late, and meanwhile the processor goes on to the next vertex.
   bool go_on() {
+    go_on_to(all_);
+    return at_ == start_ && met_ == all_;
+  }
+  // The same for a vertex that may have millions of corners.
+  bool go_on(const Pace& pace) {
     while (met_ < all_) {
-      step();
-      if (at_ == start_) [[unlikely]]
-        break;
+      pace.spend(kStepsPerPoll);
+      if (!go_on_to(std::min<std::size_t>(all_, met_ + kStepsPerPoll))) break;
     }
     return at_ == start_ && met_ == all_;
   }
+  static constexpr std::size_t kStepsPerPoll = 1 << 12;  // each perhaps waits for memory
+  bool is_short() const { return all_ <= kStepsPerPoll; }
   // All but the shorter one's last step, by turns: every step of a walk waits for the one before. False when
   // one comes back to its start.
   static bool go_together(Walk& one, Walk& other) {
@@ -143,6 +153,15 @@ class Topology::Walk {
   }
 
  private:
+  // False when it comes back to the start.
+  [[gnu::always_inline]] bool go_on_to(std::size_t end) {
+    while (met_ < end) {
+      step();
+      if (at_ == start_) [[unlikely]]
+        return false;
+    }
+    return true;
+  }
   [[gnu::always_inline]] void step() {
     corners_[met_] = at_;
     edges_[met_++] = edge_;
@@ -159,20 +178,26 @@ class Topology::Walk {
 };
 
 // Writes the rows of all vertices whose faces are one closed fan, and finds those where several meet.
-Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, const Budget& budget) {
+void Topology::go_round_vertices(std::span<const Index> first_corners, const Pace& pace) {
   vertex_corners_.resize(triangles_.size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
-  Index next_poll = 0;
+  const auto corners_before = [&](Index v) { return vertex_corner_offsets_[v]; };
+  Index next_vertex = 0, next_corner = 0;  // at either of which the budget is polled again
   for (Index v = 0; v < vertex_count_; ++v) {
-    if (v >= next_poll) {
-      if (auto stop = budget.poll()) return *stop;
-      next_poll = v + kVerticesPerPoll;
+    if (v >= next_vertex || corners_before(v) >= next_corner) {
+      pace.spend(Pace::kBlock);
+      next_vertex = v + static_cast<Index>(Pace::kBlock);
+      next_corner = corners_before(v) + static_cast<Index>(4 * Pace::kBlock);
     }
     if (first_corners[v] == kNoIndex) continue;
     Walk one(*this, v, first_corners[v]);
+    if (corners_before(v + 1) - corners_before(v) > Walk::kStepsPerPoll) {
+      if (!one.go_on(pace)) non_manifold_vertices_[v] = 1;
+      continue;
+    }
     if (first_corners[v + 1] != kNoIndex) {
       Walk other(*this, v + 1, first_corners[v + 1]);
-      if (Walk::go_together(one, other) && one.go_on() && other.go_on()) {
+      if (other.is_short() && Walk::go_together(one, other) && one.go_on() && other.go_on()) {
         ++v;
         continue;
       }
@@ -180,37 +205,61 @@ Result<void> Topology::go_round_vertices(std::span<const Index> first_corners, c
     }
     if (!one.go_on()) non_manifold_vertices_[v] = 1;
   }
-  return {};
 }
 
 // Writes the rows of all vertices whose faces are one open fan: it starts at the border's half-edge that
 // leaves the vertex.
-void Topology::go_round_borders() {
-  for_each_set(edge_kinds(), [&](std::size_t e) {
-    if (!is_boundary(static_cast<Index>(e))) return;
-    const Index start = edge_half_edges(static_cast<Index>(e))[0], v = triangles_[start];
-    if (is_non_manifold_vertex(v)) return;
-    Index* corner = vertex_corners_.data() + vertex_corner_offsets_[v];
-    Index* edge = vertex_edges_.data() + vertex_edge_offsets_[v];
-    for (Index h = start; h != kNoIndex; h = across(*edge, prev(h))) {
-      *corner++ = h;
-      *edge++ = edges_.of_half_edges[h];
-      *edge = edges_.of_half_edges[prev(h)];
-    }
-    if (corner != vertex_corners_.data() + vertex_corner_offsets_[v + 1]) non_manifold_vertices_[v] = 1;
-  });
+void Topology::go_round_borders(const Pace& pace) {
+  for_each_set(
+      edge_kinds(),
+      [&](std::size_t e) {
+        if (!is_boundary(static_cast<Index>(e))) return;
+        const Index start = edge_half_edges(static_cast<Index>(e))[0], v = triangles_[start];
+        if (is_non_manifold_vertex(v)) return;
+        Index* corner = vertex_corners_.data() + vertex_corner_offsets_[v];
+        Index* edge = vertex_edges_.data() + vertex_edge_offsets_[v];
+        for (Index h = start; h != kNoIndex; h = across(*edge, prev(h))) {
+          pace.spend(4);
+          *corner++ = h;
+          *edge++ = edges_.of_half_edges[h];
+          *edge = edges_.of_half_edges[prev(h)];
+        }
+        if (corner != vertex_corners_.data() + vertex_corner_offsets_[v + 1]) non_manifold_vertices_[v] = 1;
+      },
+      pace);
 }
 
 // Writes the corners and edges of the other vertices.
-void Topology::list_non_manifold() {
-  if (std::ranges::count(non_manifold_vertices_, 1) == 0) return;
-  Buffer<Index> ends = vertex_corner_offsets_;
-  for (Index h = 0; h < triangles_.size(); ++h)
+void Topology::list_non_manifold(const Pace& pace) {
+  bool any = false;
+  pace.for_each(vertex_count_, [&](Index v) { any |= is_non_manifold_vertex(v); });
+  if (!any) return;
+  Buffer<Index> ends;
+  pace.copy(vertex_corner_offsets_, ends);
+  pace.for_each(static_cast<Index>(triangles_.size()), [&](Index h) {
     if (const Index v = triangles_[h]; is_non_manifold_vertex(v)) vertex_corners_[ends[v]++] = h;
-  ends = vertex_edge_offsets_;
-  for (Index e = 0; e < edge_count(); ++e)
+  });
+  pace.copy(vertex_edge_offsets_, ends);
+  pace.for_each(edge_count(), [&](Index e) {
     for (const Index v : edges_.vertices[e])
       if (is_non_manifold_vertex(v)) vertex_edges_[ends[v]++] = e;
+  });
+}
+
+std::vector<Topology::Fan> Topology::in_order_of_corners(std::vector<Fan> fans, const Pace& pace) {
+  // Each one's lowest corner is looked for once: comparing the fans themselves would be quadratic where one of
+  // them has half the corners of a hub.
+  std::vector<std::pair<Index, std::size_t>> order;
+  order.reserve(fans.size());
+  for (std::size_t k = 0; k < fans.size(); ++k) {
+    pace.spend(fans[k].corners.size());
+    order.emplace_back(*std::ranges::min_element(fans[k].corners), k);
+  }
+  pace.sort(order.begin(), order.end(), std::less<>());
+  std::vector<Fan> sorted;
+  sorted.reserve(fans.size());
+  for (const auto& [corner, k] : order) sorted.push_back(std::move(fans[k]));
+  return sorted;
 }
 
 }  // namespace subdivd

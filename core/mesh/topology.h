@@ -20,6 +20,7 @@
 #include "core/base/budget.h"
 #include "core/base/buffer.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/mesh/edges.h"
 
@@ -30,8 +31,8 @@ class Topology {
   Topology() = default;
   // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed). Edges
   // are numbered by find_edges(). Linear time, some tens of nanoseconds a triangle.
-  Topology(Index vertex_count, std::vector<Index> triangles);
-  // The same, and stops when the budget is polled dry.
+  Topology(Index vertex_count, std::vector<Index> triangles, const Pace& pace = {});
+  // The same, and returns the budget's error when it says to stop.
   static Result<Topology> build(Index vertex_count, std::vector<Index> triangles, const Budget& budget);
   // With the edges as given: the edge of every half-edge, and every edge's ends, the lower-numbered first.
   // Refinement needs it: two faces over the same three points refine to edges that share their ends and are
@@ -89,7 +90,7 @@ class Topology {
     return edges_.kinds[e] == EdgeKind::manifold ? across(e, h) : kNoIndex;
   }
 
-  // Without a choice: which corner of its face it is, no processor can foresee.
+  // Branch-free: which corner of its face it is cannot be predicted.
   static Index next(Index h) { return h + 1 - 3 * static_cast<Index>(h % 3 == 2); }
   static Index prev(Index h) { return h - 1 + 3 * static_cast<Index>(h % 3 == 0); }
 
@@ -101,8 +102,8 @@ class Topology {
     bool closed = false;
   };
   template <class Passable>
-  std::vector<Fan> fans(Index v, Passable passable) const {
-    return is_non_manifold_vertex(v) ? scattered_fans(v, passable) : fans_of_one(v, passable);
+  std::vector<Fan> fans(Index v, Passable passable, const Pace& pace = {}) const {
+    return is_non_manifold_vertex(v) ? scattered_fans(v, passable, pace) : fans_of_one(v, passable, pace);
   }
 
  private:
@@ -110,20 +111,21 @@ class Topology {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
   class Walk;
-  Result<void> connect(Buffer<Index> first_corners, const Budget& budget);
-  Buffer<Index> count_corners();
-  void gather_crowds();
-  void count_edges(std::span<Index> first_corners);
-  Result<void> go_round_vertices(std::span<const Index> first_corners, const Budget& budget);
-  void go_round_borders();
-  void list_non_manifold();
+  void connect(Buffer<Index> first_corners, const Pace& pace);
+  Buffer<Index> count_corners(const Pace& pace);
+  void gather_crowds(const Pace& pace);
+  void count_edges(std::span<Index> first_corners, const Pace& pace);
+  void go_round_vertices(std::span<const Index> first_corners, const Pace& pace);
+  void go_round_borders(const Pace& pace);
+  void list_non_manifold(const Pace& pace);
   std::span<const Index> crowd_of(Index e) const;
   // The other of two half-edges along e; kNoIndex at a border.
   Index across(Index e, Index h) const { return edges_.sides[e][0] ^ edges_.sides[e][1] ^ h; }
   template <class Passable>
-  std::vector<Fan> fans_of_one(Index v, Passable passable) const;
+  std::vector<Fan> fans_of_one(Index v, Passable passable, const Pace& pace) const;
   template <class Passable>
-  std::vector<Fan> scattered_fans(Index v, Passable passable) const;
+  std::vector<Fan> scattered_fans(Index v, Passable passable, const Pace& pace) const;
+  static std::vector<Fan> in_order_of_corners(std::vector<Fan> fans, const Pace& pace);
 
   Index vertex_count_ = 0;
   std::vector<Index> triangles_;
@@ -135,7 +137,7 @@ class Topology {
 
 // Cuts the fan that the vertex has at the edges that may not be passed.
 template <class Passable>
-std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable) const {
+std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable, const Pace& pace) const {
   const auto corners = vertex_corners(v), edges = vertex_edges(v);
   const bool closed = corners.size() == edges.size();
   const std::size_t count = corners.size();
@@ -144,20 +146,23 @@ std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable) con
   // A closed fan is cut open at the first wall.
   std::size_t start = 0;
   if (closed) {
-    while (start < count && passable(edges[start])) ++start;
+    while (start < count && passable(edges[start])) {
+      pace.spend(1);
+      ++start;
+    }
     if (start == count) return {{{corners.begin(), corners.end()}, true}};
   }
   for (std::size_t k = 0; k < count; ++k) {
+    pace.spend(4);
     const std::size_t at = (start + k) % count;
     if (k == 0 || !passable(edges[at])) result.emplace_back();
     result.back().corners.push_back(corners[at]);
   }
-  std::ranges::sort(result, {}, [](const Fan& fan) { return *std::ranges::min_element(fan.corners); });
-  return result;
+  return in_order_of_corners(std::move(result), pace);
 }
 
 template <class Passable>
-std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable) const {
+std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable, const Pace& pace) const {
   const auto corners = vertex_corners(v);
   // The corner before h, clockwise: across the edge of h.
   auto before = [&](Index h) {
@@ -175,6 +180,7 @@ std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable) 
     Fan fan;
     Index start = corners[c];
     for (Index h = before(start); h != kNoIndex; h = before(h)) {
+      pace.spend(4);
       start = h;
       if (h == corners[c]) {
         fan.closed = true;
@@ -182,6 +188,7 @@ std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable) 
       }
     }
     for (Index h = start; h != kNoIndex; h = after(h)) {
+      pace.spend(8);
       done[position(h)] = 1;
       fan.corners.push_back(h);
       if (fan.closed && after(h) == start) break;

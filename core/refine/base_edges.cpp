@@ -60,16 +60,16 @@ void BaseEdges<Scheme, Real>::refine_semi_sharp(Index level, const Real* from, R
 // Every face along the crease is one side of the surface: a regular border of three faces at each point.
 template <class Scheme, class Real>
 void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, const Evaluated<Real>& out,
-                                           Index e) const {
+                                           Index e, const Pace& pace) const {
   const Numbering numbering(net_.topology(), level);
   const Count n = segments(level);
   const VertexMask mask = scheme_.crease_limit_mask(0, 1);
   const RingMask across = scheme_.crease_tangent_across(3);
   const auto along = net_.topology().edge_half_edges(e);
   std::vector<Index> half_edges(along.begin(), along.end());
-  std::ranges::sort(half_edges);  // the lowest's side is the first
+  if (half_edges.size() == 2 && half_edges[0] > half_edges[1])
+    std::swap(half_edges[0], half_edges[1]);  // the lowest's side is the first; of more they ascend
   const Index low = net_.topology().edge_vertices(e)[0];
-  std::vector<Frame<Real>> frames(half_edges.size());
   for (Count k = 1; k < n; ++k) {
     const Index point = numbering.along(e, k), ahead = numbering.along(e, k + 1),
                 behind = numbering.along(e, k - 1);
@@ -80,20 +80,25 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
             static_cast<Real>(mask.self) * at(point)[c] +
             static_cast<Real>(mask.crease) * (at(ahead)[c] + at(behind)[c]);
     if (!out.wants_frames()) continue;
+    FrameMean<Real> frames;
     for (std::size_t s = 0; s < half_edges.size(); ++s) {
+      pace.spend(8);
       const Index h = half_edges[s];
       const bool forward = net_.topology().corner_vertex(h) == low;
       const Count p = forward ? k : n - k;  // from the half-edge's own start
       const Real* ring[4] = {at(forward ? ahead : behind), at(numbering.beside(h, p)),
                              at(numbering.beside(h, p - 1)), at(forward ? behind : ahead)};
-      Frame<Real>& frame = frames[s];
+      Frame<Real> frame;
       for (int c = 0; c < 3; ++c) {
         frame.u[c] = ring[0][c] - ring[3][c];
         frame.v[c] = 0;
         for (std::size_t i = 0; i < 4; ++i)
           frame.v[c] += static_cast<Real>(across.edges[i]) * (ring[i][c] - at(point)[c]);
       }
-      if (set_normal(frame)) continue;
+      if (set_normal(frame)) {
+        frames.add(frame);
+        continue;
+      }
       Ring<Real> whole{3,
                        {at(point), at(point) + 3},
                        {},
@@ -101,14 +106,13 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
                        {kInfiniteSharpness, 0, 0, kInfiniteSharpness},
                        {},
                        {},
-                       {},
                        {{0, 1}, {1, 2}, {2, 3}},
                        {{{0, 1, 2, 3}, false}}};
       for (const Real* neighbour : ring)
         whole.neighbors.insert(whole.neighbors.end(), neighbour, neighbour + 3);
-      frame = LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0];
+      frames.add(LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0]);
     }
-    write_frames<Real>(frames, out, point);
+    write_frames(frames, out, point);
   }
 }
 
@@ -127,26 +131,28 @@ void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position
     };
     append(ring.center, point);
     for (const Index p : numbering.ring_on_edge(e, k)) append(ring.neighbors, p);
-    ring.edge_sharpness =
-        ring.around = {semi.segment(position, k), 0, 0, semi.segment(position, k - 1), 0, 0};
-    ring.in_mesh = {0, 1, 2, 3, 4, 5};
+    ring.edge_sharpness = {semi.segment(position, k), 0, 0, semi.segment(position, k - 1), 0, 0};
+    if (net_.crease_method() == CreaseMethod::chaikin) ring.around = decay_sums(ring.edge_sharpness);
     ring.far_child = {net_.segment_sharpness(level + 1, e, 2 * k + 1), 0, 0,
                       net_.segment_sharpness(level + 1, e, 2 * k - 2), 0, 0};
     ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
     ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
     const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), std::move(ring));
     if (out.limits != nullptr) std::ranges::copy(limit.position(), out.limits + Count{point} * width_);
-    if (out.wants_frames()) write_frames<Real>(limit.frames(), out, point);
+    if (!out.wants_frames()) continue;
+    FrameMean<Real> frames;
+    limit.for_each_frame([&](const Frame<Real>& frame) { frames.add(frame); });
+    write_frames(frames, out, point);
   }
 }
 
 template <class Scheme, class Real>
 void BaseEdges<Scheme, Real>::limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin,
-                                    Index end) const {
+                                    Index end, const Pace& pace) const {
   const Count n = segments(level);
   if (n < 2) return;
   for (Index e = begin; e < end; ++e) {
-    if (net_.edge_rules()[e] == EdgeRule::crease) limit_crease(level, values, out, e);
+    if (net_.edge_rules()[e] == EdgeRule::crease) limit_crease(level, values, out, e, pace);
     if (net_.edge_rules()[e] == EdgeRule::linear && out.limits != nullptr) {
       const Count first = (net_.topology().vertex_count() + e * (n - 1)) * width_;
       std::copy_n(values + first, (n - 1) * width_, out.limits + first);

@@ -3,6 +3,7 @@
 // All else about edges are inner loops (core/refine/kernels).
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/limit/limit.h"
 #include "core/refine/evaluate.h"
 #include "core/refine/net.h"
@@ -19,11 +20,13 @@ class BaseEdges {
   void refine_semi_sharp(Index level, const Real* from, Real* to, Index begin, Index end) const;
 
   // Limits and frames inside those of the base edges [begin, end) that are not both smooth and settled.
-  void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end) const;
+  void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end,
+             const Pace& pace) const;
 
  private:
   void refine_strip(Index level, std::size_t position, const Real* from, Real* to) const;
-  void limit_crease(Index level, const Real* values, const Evaluated<Real>& out, Index e) const;
+  void limit_crease(Index level, const Real* values, const Evaluated<Real>& out, Index e,
+                    const Pace& pace) const;
   void limit_semi_sharp(Index level, std::size_t position, const Real* values,
                         const Evaluated<Real>& out) const;
 

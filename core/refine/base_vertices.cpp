@@ -2,18 +2,15 @@
 
 #include <algorithm>
 
-#include "core/mesh/positions.h"
 #include "core/refine/split.h"
 
 namespace subdivd {
 
 template <class Real>
-void write_frames(std::span<const Frame<Real>> frames, const Evaluated<Real>& out, Count vertex) {
-  const Frame<Real> none;
-  const Frame<Real>& first = frames.empty() ? none : frames[0];
-  if (out.tangents_u != nullptr) std::copy_n(first.u, 3, out.tangents_u + 3 * vertex);
-  if (out.tangents_v != nullptr) std::copy_n(first.v, 3, out.tangents_v + 3 * vertex);
-  if (out.normals != nullptr) mean_normal<Real>(frames, out.normals + 3 * vertex);
+void write_frames(const FrameMean<Real>& frames, const Evaluated<Real>& out, Count vertex) {
+  if (out.tangents_u != nullptr) std::copy_n(frames.first().u, 3, out.tangents_u + 3 * vertex);
+  if (out.tangents_v != nullptr) std::copy_n(frames.first().v, 3, out.tangents_v + 3 * vertex);
+  if (out.normals != nullptr) frames.normal(out.normals + 3 * vertex);
 }
 
 template <class Scheme, class Real>
@@ -47,7 +44,7 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
 // order of the plain engine, to the bit.
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask,
-                                       Real* out) const {
+                                       Real* out, const Pace& pace) const {
   const auto edges = net_.topology().vertex_edges(v);
   std::fill_n(out, width_, Real(0));
   const auto add = [&](double weight, Count point) {
@@ -55,14 +52,18 @@ void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const
     for (Index c = 0; c < width_; ++c) out[c] += static_cast<Real>(weight) * at[c];
   };
   if (mask.each != 0)
-    for (const Index e : edges) add(mask.each, beside(n, e, v));
+    for (const Index e : edges) {
+      pace.spend(1 + width_ / 4);
+      add(mask.each, beside(n, e, v));
+    }
   if (mask.crease != 0)
     for (const Index end : mask.crease_ends) add(mask.crease, beside(n, edges[end], v));
   add(mask.self, v);
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real* to, Index v) const {
+void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real* to, Index v,
+                                                const Pace& pace) const {
   const VertexRule rule = net_.vertex_rules()[v];
   VertexMask mask;  // v stays
   if (rule == VertexRule::smooth || rule == VertexRule::dart) {
@@ -71,31 +72,33 @@ void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real*
     const auto ends = crease_edges(v);
     mask = {crease_.self, crease_.each, crease_.crease, {ends[0], ends[1]}};
   }
-  weigh(n, from, v, mask, to + Count{v} * width_);
+  weigh(n, from, v, mask, to + Count{v} * width_, pace);
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from, Real* to, Index v) const {
+void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from, Real* to, Index v,
+                                                  const Pace& pace) const {
   const Topology& topology = net_.topology();
   if (net_.vertex_rules()[v] == VertexRule::corner) return;
   std::vector<float> sharpness, child;
   for (const Index e : topology.vertex_edges(v)) {
+    pace.spend(16);
     sharpness.push_back(net_.sharpness_beside(level, e, v));
     child.push_back(net_.sharpness_beside(level + 1, e, v));
   }
   const float own = net_.semi_sharp(level).vertex(v);
   const VertexMask mask = scheme_.vertex_mask({static_cast<Index>(topology.vertex_corners(v).size()),
                                                net_.crease_method(), own, decay(own), sharpness, child});
-  weigh(segments(level), from, v, mask, to + Count{v} * width_);
+  weigh(segments(level), from, v, mask, to + Count{v} * width_, pace);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin,
-                                        Index end) const {
+                                        Index end, const Pace& pace) const {
   for_each_in(net_.special_vertices(), begin, end,
-              [&](Index v) { refine_special(segments(level), from, to, v); });
+              [&](Index v) { refine_special(segments(level), from, to, v, pace); });
   for_each_in(net_.unsettled_vertices(level), begin, end,
-              [&](Index v) { refine_unsettled(level, from, to, v); });
+              [&](Index v) { refine_unsettled(level, from, to, v, pace); });
 }
 
 template <class Scheme, class Real>
@@ -134,7 +137,23 @@ std::vector<Real> BaseVertices<Scheme, Real>::tangent_masks() const {
 }
 
 template <class Scheme, class Real>
-Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Index v) const {
+void BaseVertices<Scheme, Real>::prepare_limits(Index level, const Pace& pace) {
+  if (net_.crease_method() != CreaseMethod::chaikin) return;
+  const Net& mesh = net_.mesh();
+  decay_sums_.clear();
+  for (const Index v : mesh.unsettled_vertices(level)) {
+    std::vector<float> around;
+    for (const Index e : mesh.topology().vertex_edges(v)) {
+      pace.spend(16);
+      around.push_back(mesh.sharpness_beside(level, e, v));
+    }
+    decay_sums_.push_back(decay_sums(std::move(around), pace));
+  }
+}
+
+template <class Scheme, class Real>
+Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Index v,
+                                            const Pace& pace) const {
   const Topology& topology = net_.topology();
   const Count n = segments(level);
   Ring<Real> ring;
@@ -145,21 +164,26 @@ Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Ind
   append(ring.center, v);
   const float own = net_.sharpness().vertices[v];
   ring.vertex_sharpness = is_infinite(own) ? own : net_.semi_sharp(level).vertex(v);
-  for (const Index e : topology.vertex_edges(v)) {
+  const auto edges = topology.vertex_edges(v);
+  ring.neighbors.reserve(edges.size() * width_);
+  for (const Index e : edges) {
+    pace.spend(16 + width_);
     append(ring.neighbors, beside(n, e, v));
     ring.edge_sharpness.push_back(net_.sharpness_beside(level, e, v));
   }
-  ring.set_faces(topology, v);
+  ring.set_faces(topology, v, pace);
   if (ring.wedges.empty()) return ring;
 
-  const Net& mesh = net_.mesh();
-  const Index mesh_vertex = mesh.topology().corner_vertex(topology.vertex_corners(v)[0]);
-  const auto around = mesh.topology().vertex_edges(mesh_vertex);
-  const Positions in_around(around);
-  for (const Index e : around) ring.around.push_back(mesh.sharpness_beside(level, e, mesh_vertex));
-  for (const Index e : topology.vertex_edges(v)) {
-    const Index in_mesh = mesh.topology().half_edge_edge(topology.edge_half_edges(e)[0]);
-    ring.in_mesh.push_back(in_around(in_mesh));
+  if (!decay_sums_.empty()) {
+    const Net& mesh = net_.mesh();
+    const Index mesh_vertex = mesh.topology().corner_vertex(topology.vertex_corners(v)[0]);
+    const auto unsettled = mesh.unsettled_vertices(level);
+    const auto at = std::ranges::lower_bound(unsettled, mesh_vertex);
+    if (at != unsettled.end() && *at == mesh_vertex)
+      ring.around = decay_sums_[static_cast<std::size_t>(at - unsettled.begin())];
+  }
+  for (const Index e : edges) {
+    pace.spend(16);
     ring.far_child.push_back(net_.sharpness_far(level, e, v));
   }
   return ring;
@@ -167,16 +191,19 @@ Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Ind
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::limit_by_ring(Index level, const Real* values, const Evaluated<Real>& out,
-                                               Index v, bool frames_only) const {
-  const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), ring(level, values, v));
+                                               Index v, bool frames_only, const Pace& pace) const {
+  const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), ring(level, values, v, pace), pace);
   if (out.limits != nullptr && !frames_only)
     std::ranges::copy(limit.position(), out.limits + Count{v} * width_);
-  if (out.wants_frames()) write_frames<Real>(limit.frames(), out, v);
+  if (!out.wants_frames()) return;
+  FrameMean<Real> frames;
+  limit.for_each_frame([&](const Frame<Real>& frame) { frames.add(frame); });
+  write_frames(frames, out, v);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::limit_special(Index level, const Real* values, const Evaluated<Real>& out,
-                                               Index v) const {
+                                               Index v, const Pace& pace) const {
   if (out.limits != nullptr) {
     VertexMask mask;  // v stays
     const VertexRule rule = net_.vertex_rules()[v];
@@ -186,23 +213,24 @@ void BaseVertices<Scheme, Real>::limit_special(Index level, const Real* values, 
       const auto ends = crease_edges(v);
       mask = scheme_.crease_limit_mask(ends[0], ends[1]);
     }
-    weigh(segments(level), values, v, mask, out.limits + Count{v} * width_);
+    weigh(segments(level), values, v, mask, out.limits + Count{v} * width_, pace);
   }
-  if (out.wants_frames()) limit_by_ring(level, values, out, v, true);
+  if (out.wants_frames()) limit_by_ring(level, values, out, v, true, pace);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Evaluated<Real>& out,
-                                       Index begin, Index end) const {
-  for_each_in(net_.special_vertices(), begin, end, [&](Index v) { limit_special(level, values, out, v); });
-  const auto by_ring = [&](Index v) { limit_by_ring(level, values, out, v, false); };
+                                       Index begin, Index end, const Pace& pace) const {
+  for_each_in(net_.special_vertices(), begin, end,
+              [&](Index v) { limit_special(level, values, out, v, pace); });
+  const auto by_ring = [&](Index v) { limit_by_ring(level, values, out, v, false, pace); };
   for_each_in(net_.darts(), begin, end, by_ring);
   for_each_in(net_.unsettled_vertices(level), begin, end, by_ring);
 }
 
 template class BaseVertices<Loop, float>;
 template class BaseVertices<Loop, double>;
-template void write_frames<float>(std::span<const Frame<float>>, const Evaluated<float>&, Count);
-template void write_frames<double>(std::span<const Frame<double>>, const Evaluated<double>&, Count);
+template void write_frames<float>(const FrameMean<float>&, const Evaluated<float>&, Count);
+template void write_frames<double>(const FrameMean<double>&, const Evaluated<double>&, Count);
 
 }  // namespace subdivd

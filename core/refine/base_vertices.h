@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/limit/limit.h"
 #include "core/refine/evaluate.h"
 #include "core/refine/net.h"
@@ -20,20 +21,23 @@ class BaseVertices {
   // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner
   // loops (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
   // closed-form numbering. Not for linear smoothing.
-  void refine(Index level, const Real* from, Real* to, Index begin, Index end) const;
+  void refine(Index level, const Real* from, Real* to, Index begin, Index end, const Pace& pace) const;
   // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each
   // neighbour.
   std::vector<Real> smooth_masks() const;
 
-  // The same for limits and frames. Not for linear smoothing either.
-  void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end) const;
+  // The same for limits and frames. Not for linear smoothing either. prepare_limits comes first, once.
+  void prepare_limits(Index level, const Pace& pace);
+  void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end,
+             const Pace& pace) const;
   std::vector<Real> limit_masks() const;
   // Per valence up to Net::kListedValence, as many pairs of weights of the neighbours in the two tangents.
   std::vector<Real> tangent_masks() const;
 
   // The frame of a smooth vertex, the long way.
-  Frame<Real> frame(Index level, const Real* values, Index v) const {
-    return LimitRing<Scheme, Real>(scheme_, net_.crease_method(), ring(level, values, v)).frames()[0];
+  Frame<Real> frame(Index level, const Real* values, Index v, const Pace& pace) const {
+    return LimitRing<Scheme, Real>(scheme_, net_.crease_method(), ring(level, values, v, pace), pace)
+        .frames()[0];
   }
 
  private:
@@ -44,19 +48,20 @@ class BaseVertices {
     return net_.topology().vertex_count() + e * (n - 1) + (ends[0] == v ? 0 : n - 2);
   }
   VertexMask smooth_mask(Index valence) const;
-  void refine_special(Count n, const Real* from, Real* to, Index v) const;
-  void refine_unsettled(Index level, const Real* from, Real* to, Index v) const;
-  void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out) const;
+  void refine_special(Count n, const Real* from, Real* to, Index v, const Pace& pace) const;
+  void refine_unsettled(Index level, const Real* from, Real* to, Index v, const Pace& pace) const;
+  void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out, const Pace& pace) const;
   // Calls f(v) for those in [begin, end) of ascending vertices.
   template <class F>
   static void for_each_in(std::span<const Index> vertices, Index begin, Index end, F&& f) {
     for (auto at = std::ranges::lower_bound(vertices, begin); at != vertices.end() && *at < end; ++at) f(*at);
   }
   std::array<Index, 2> crease_edges(Index v) const;
-  void limit_special(Index level, const Real* values, const Evaluated<Real>& out, Index v) const;
-  void limit_by_ring(Index level, const Real* values, const Evaluated<Real>& out, Index v,
-                     bool frames_only) const;
-  Ring<Real> ring(Index level, const Real* values, Index v) const;
+  void limit_special(Index level, const Real* values, const Evaluated<Real>& out, Index v,
+                     const Pace& pace) const;
+  void limit_by_ring(Index level, const Real* values, const Evaluated<Real>& out, Index v, bool frames_only,
+                     const Pace& pace) const;
+  Ring<Real> ring(Index level, const Real* values, Index v, const Pace& pace) const;
 
   const Net& net_;
   Scheme scheme_;
@@ -64,10 +69,12 @@ class BaseVertices {
   bool linear_;
   VertexMask crease_;
   std::array<VertexMask, Net::kListedValence + 1> smooth_;  // of the net's valences
+  // Under Chaikin's rule, per unsettled vertex of the mesh: how its edges decay. For limits.
+  std::vector<std::vector<DecaySum>> decay_sums_;
 };
 
 // Writes what `out` asks for of one vertex's frames.
 template <class Real>
-void write_frames(std::span<const Frame<Real>> frames, const Evaluated<Real>& out, Count vertex);
+void write_frames(const FrameMean<Real>& frames, const Evaluated<Real>& out, Count vertex);
 
 }  // namespace subdivd

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/buffer.h"
+#include "core/base/pace.h"
 #include "core/base/parallel.h"
 #include "core/refine/base_edges.h"
 #include "core/refine/base_vertices.h"
@@ -43,11 +44,12 @@ FaceRow face_row(Count triangle, Count n, bool whole_faces) {
 template <class Scheme, class Real>
 class Evaluation {
  public:
-  Evaluation(const Net& net, const Scheme& scheme, Index level, std::span<const Real> control, Index width,
-             Smoothing smoothing, const Evaluated<Real>& out)
+  Evaluation(const Net& net, const Scheme& scheme, Index level, Buffer<Real> control, Index width,
+             Smoothing smoothing, const Evaluated<Real>& out, const Pace& pace)
       : net_(net),
         scheme_(scheme),
         level_(level),
+        control_(std::move(control)),
         width_(width),
         linear_(smoothing == Smoothing::linear),
         out_(out),
@@ -56,29 +58,28 @@ class Evaluation {
         edges_(net, scheme, width) {
     linear_ |= net.smoothing() == Smoothing::linear;
     if (linear_)
-      linear_rules_.assign(net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
+      pace.fill(linear_rules_, net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
+    else if (out.wants_limits())
+      vertices_.prepare_limits(level, pace);
     vertex_masks_ = vertices_.smooth_masks();
     if (out.wants_limits()) limit_masks_ = vertices_.limit_masks();
     if (out.wants_frames()) tangent_masks_ = vertices_.tangent_masks();
     // Two levels below the last take turns; the last goes straight to the caller.
     for (Index k = 0; k < 2; ++k)
       if (level > k + 1) set_size(scratch_[k], net.value_count(level - 1 - k) * width);
-    set_size(control_, control.size());
-    std::ranges::copy(control, control_.begin());
+    set_size(control_, control_.size());
     if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
   }
 
   Result<void> run(Index threads, const Budget& budget) {
     threads = is_small(level_) ? 1 : std::max<Index>(threads, 1);
     deferred_.resize(threads);
-    if (level_ == 0 && out_.values != nullptr)
-      std::copy(control_.begin(), control_.end() - kSpare, out_.values);
     return Team::run(threads, budget, [&](Worker& worker) { work(worker); });
   }
 
  private:
   // Steps read a little past the end of what they refine.
-  static constexpr std::ptrdiff_t kSpare = 4;
+  static constexpr auto kSpare = static_cast<std::ptrdiff_t>(kSpareControl);
   static void set_size(Buffer<Real>& buffer, Count size) {
     buffer.resize(size + kSpare);
     std::fill(buffer.end() - kSpare, buffer.end(), Real(0));
@@ -151,10 +152,25 @@ class Evaluation {
     for (; level < level_; ++level) {
       if (!refine_level(worker, level, rows) || !worker.meet()) return;
     }
+    if (level_ == 0 && out_.values != nullptr && !copy_control(worker)) return;
     if (!out_.wants_limits()) return;
-    for (const auto& [begin, end] : deferred_[worker.index()]) limit_faces(begin, end, rows);
+    for (const auto& [begin, end] : deferred_[worker.index()]) {
+      if (!worker.go_on(8 * kBlock)) return;
+      limit_faces(worker, begin, end, rows);
+    }
     limit_vertices(worker, rows);
     limit_edges(worker, rows);
+  }
+
+  // Level 0 is what was given. False when the team is to stop.
+  bool copy_control(Worker& worker) const {
+    const Range share = worker.share(control_.size() - kSpareControl);
+    for (Count begin = share.begin; begin < share.end; begin += kBlock) {
+      const Count count = std::min(kBlock, share.end - begin);
+      if (!worker.go_on(count)) return false;
+      std::copy_n(control_.begin() + static_cast<std::ptrdiff_t>(begin), count, out_.values + begin);
+    }
+    return true;
   }
 
   // False when the team is to stop.
@@ -171,9 +187,13 @@ class Evaluation {
 
   bool is_small(Index level) const { return net_.value_count(level) * width_ < kWorthSharing; }
 
+  // Steps of a point: as many as its value has quarters of a vector.
+  Count steps_per_point() const { return (width_ + 3) / 4; }
+
   // Calls f(begin, end) for blocks of the worker's share of `total` items of `points` points each.
   template <class F>
-  static void in_blocks(Worker& worker, Count total, Count points, F&& f) {
+  void in_blocks(Worker& worker, Count total, Count points, F&& f) const {
+    points *= steps_per_point();
     const Range share = worker.share(total);
     const Count block = std::max<Count>(1, kBlock / std::max<Count>(points, 1));
     for (Count begin = share.begin; begin < share.end; begin += block) {
@@ -196,7 +216,7 @@ class Evaluation {
         part.to += component;
         kernels_.refine_vertices[kernel](part, begin, end);
       });
-      vertices_.refine(level, step.from, step.to, begin, end);
+      vertices_.refine(level, step.from, step.to, begin, end, Pace(worker));
     });
   }
 
@@ -216,14 +236,14 @@ class Evaluation {
   void refine_faces(Worker& worker, const TriStep<Real>& step, std::vector<Real>* limit_rows) {
     if (step.n < 2) return;  // a face of two segments an edge has nothing inside
     const Count n = step.n, faces = net_.topology().face_count(), points = 2 * n * n;
-    const bool whole = points <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
+    const bool whole = points * steps_per_point() <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
     const Range share = worker.share(faces * n * n);
     const FaceRow last = face_row(share.end, n, whole);
-    const Count block = std::max<Count>(whole ? n * n : 1, kBlock);
+    const Count block = std::max<Count>(whole ? n * n : 1, kBlock / steps_per_point());
     FaceRow begin = face_row(share.begin, n, whole);
     for (Count at = share.begin; at < share.end; at += block) {
       const FaceRow end = at + block >= share.end ? last : face_row(at + block, n, whole);
-      if (!worker.go_on(4 * block)) return;
+      if (!worker.go_on(4 * block * steps_per_point())) return;
       for_components([&](Index kernel, Index component) {
         TriStep<Real> part = step;
         part.from += component;
@@ -232,7 +252,7 @@ class Evaluation {
       });
       if (limit_rows != nullptr) {
         if (whole)
-          limit_faces(begin, end, *limit_rows);
+          limit_faces(worker, begin, end, *limit_rows);
         else
           deferred_[worker.index()].push_back({begin, end});
       }
@@ -240,7 +260,12 @@ class Evaluation {
     }
   }
 
-  TriLimit<Real> limit_of(std::vector<Real>& rows) const {
+  struct Context {
+    const Evaluation& evaluation;
+    Worker& worker;
+  };
+
+  TriLimit<Real> limit_of(const Context& context, std::vector<Real>& rows) const {
     TriLimit<Real> limit{step_from(level_, values_at(level_), out_.limits, rows.data()),
                          0,
                          0,
@@ -250,7 +275,7 @@ class Evaluation {
                          out_.tangents_v,
                          out_.normals,
                          &Evaluation::robust_frame,
-                         this};
+                         &context};
     if (linear_) {
       limit.self = 1;
     } else {
@@ -263,11 +288,14 @@ class Evaluation {
 
   // See TriLimit.
   static void robust_frame(const void* context, Count vertex, Real* u, Real* v, Real* normal) {
-    const auto& self = *static_cast<const Evaluation*>(context);
+    const auto& [self, worker] = *static_cast<const Context*>(context);
+    // A thousand times as slow as the short way: a mesh that is all degenerate needs a poll here. What is
+    // written when the team stops is nobody's.
+    if (!worker.go_on(256)) return;
     const Real* values = self.values_at(self.level_);
     const auto number = static_cast<Index>(vertex);
     const Frame<Real> frame = number < self.net_.topology().vertex_count()
-                                  ? self.vertices_.frame(self.level_, values, number)
+                                  ? self.vertices_.frame(self.level_, values, number, Pace(worker))
                                   : self.regular_frame(values, number);
     std::copy_n(frame.u, 3, u);
     std::copy_n(frame.v, 3, v);
@@ -288,8 +316,9 @@ class Evaluation {
   }
 
   template <class F>
-  void limit_components(std::vector<Real>& rows, F&& f) const {
-    const TriLimit<Real> limit = limit_of(rows);
+  void limit_components(Worker& worker, std::vector<Real>& rows, F&& f) const {
+    const Context context{*this, worker};
+    const TriLimit<Real> limit = limit_of(context, rows);
     for_components([&](Index kernel, Index component) {
       TriLimit<Real> part = limit;
       part.level.from += component;
@@ -299,10 +328,10 @@ class Evaluation {
   }
 
   // `begin` and `end` count rows of the level below, of which every one makes two here.
-  void limit_faces(FaceRow begin, FaceRow end, std::vector<Real>& rows) const {
+  void limit_faces(Worker& worker, FaceRow begin, FaceRow end, std::vector<Real>& rows) const {
     begin.row *= 2;
     end.row *= 2;
-    limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+    limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
       kernels_.limit_faces[kernel](part, begin, end);
     });
   }
@@ -316,21 +345,21 @@ class Evaluation {
                     out_.limits + Count{begin} * width_);
         return;
       }
-      limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+      limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
         kernels_.limit_vertices[kernel](part, begin, end);
       });
-      vertices_.limit(level_, values, out_, begin, end);
+      vertices_.limit(level_, values, out_, begin, end, Pace(worker));
     });
   }
 
   void limit_edges(Worker& worker, std::vector<Real>& rows) const {
     if (level_ == 0) return;
     in_blocks(worker, net_.topology().edge_count(), 8 * segments(level_), [&](Index begin, Index end) {
-      limit_components(rows, [&](Index kernel, const TriLimit<Real>& part) {
+      limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
         kernels_.limit_edges[kernel](part, begin, end);
       });
       if (!linear_) {
-        edges_.limit(level_, values_at(level_), out_, begin, end);
+        edges_.limit(level_, values_at(level_), out_, begin, end, Pace(worker));
       } else if (out_.limits != nullptr) {
         const Count points = segments(level_) - 1, first = net_.topology().vertex_count() + begin * points;
         std::copy_n(values_at(level_) + first * width_, (end - begin) * points * width_,
@@ -359,20 +388,35 @@ class Evaluation {
 }  // namespace
 
 template <class Real>
-Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
-                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
+Result<void> evaluate(const Net& net, Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
+                      const Evaluated<Real>& out, Index threads, const Budget& budget) {
   return std::visit(
       [&](const auto& scheme) {
         using Scheme = std::remove_cvref_t<decltype(scheme)>;
-        return Evaluation<Scheme, Real>(net, scheme, level, control, width, smoothing, out)
-            .run(threads, budget);
+        return stoppable(budget, [&](const Pace& pace) {
+          return Evaluation<Scheme, Real>(net, scheme, level, std::move(control), width, smoothing, out, pace)
+              .run(threads, budget);
+        });
       },
       net.scheme());
+}
+
+template <class Real>
+Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
+                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
+  Buffer<Real> copy;
+  copy.reserve(control.size() + kSpareControl);
+  copy.assign(control.begin(), control.end());
+  return evaluate<Real>(net, level, std::move(copy), width, smoothing, out, threads, budget);
 }
 
 template Result<void> evaluate(const Net&, Index, std::span<const float>, Index, Smoothing,
                                const Evaluated<float>&, Index, const Budget&);
 template Result<void> evaluate(const Net&, Index, std::span<const double>, Index, Smoothing,
+                               const Evaluated<double>&, Index, const Budget&);
+template Result<void> evaluate(const Net&, Index, Buffer<float>&&, Index, Smoothing, const Evaluated<float>&,
+                               Index, const Budget&);
+template Result<void> evaluate(const Net&, Index, Buffer<double>&&, Index, Smoothing,
                                const Evaluated<double>&, Index, const Budget&);
 
 }  // namespace subdivd

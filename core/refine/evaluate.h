@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/budget.h"
+#include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 #include "core/refine/net.h"
@@ -28,10 +29,16 @@ struct Evaluated {
 
 // Refines values on a net to `level` (at most net.max_level()): `control` holds width scalars per vertex of
 // the net, in its order. What is written depends neither on `threads` (at least 1) nor on the processor.
-// Instantiated for float and double. Working memory: a third of `values`, or all of it more when out.values
-// is null.
+// Instantiated for float and double. Working memory: `control` and a third of `values`, and all of it more
+// when out.values is null.
 template <class Real>
 Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
                       Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget);
+
+// The same for an array that may be used up. It is copied if it has no room for kSpareControl more.
+inline constexpr Count kSpareControl = 4;
+template <class Real>
+Result<void> evaluate(const Net& net, Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
+                      const Evaluated<Real>& out, Index threads, const Budget& budget);
 
 }  // namespace subdivd

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "core/mesh/scan.h"
@@ -15,11 +16,6 @@ std::size_t position(const std::vector<Index>& list, Index item) {
   return at != list.end() && *at == item ? static_cast<std::size_t>(at - list.begin()) : list.size();
 }
 
-void sort_unique(std::vector<Index>& list) {
-  std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 }  // namespace
 
 float SemiSharp::vertex(Index v) const {
@@ -27,21 +23,21 @@ float SemiSharp::vertex(Index v) const {
   return at == vertices.size() ? 0.0f : vertex_sharpness[at];
 }
 
-Result<Net> Net::build(const AnyScheme& scheme, CreaseMethod method, Topology topology, Sharpness sharpness,
-                       Index max_level, const Budget& budget) {
+Net Net::build(const AnyScheme& scheme, CreaseMethod method, Topology topology, Sharpness sharpness,
+               Index max_level, const Pace& pace) {
   Net net;
   net.scheme_ = scheme;
   net.method_ = method;
   net.max_level_ = max_level;
   net.topology_ = std::move(topology);
   net.sharpness_ = std::move(sharpness);
-  if (auto done = net.set_rules(false, budget); !done) return std::move(done).error();
-  if (auto done = net.decay_all(budget); !done) return std::move(done).error();
-  net.list_unsettled();
+  net.set_rules(false, pace);
+  net.decay_all(pace);
+  net.list_unsettled(pace);
   return net;
 }
 
-Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Budget& budget) {
+Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& pace) {
   Net net;
   net.mesh_ = std::move(of_mesh);
   const Net& mesh = *net.mesh_;
@@ -52,7 +48,7 @@ Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, cons
   net.topology_ = std::move(channel.topology);
   net.sharpness_ = std::move(channel.sharpness);
   net.value_indices_ = std::move(channel.values);
-  if (auto done = net.set_rules(channel.linear_borders, budget); !done) return std::move(done).error();
+  net.set_rules(channel.linear_borders, pace);
   if (net.linear_) return net;
 
   // Edges decay as the mesh's: under Chaikin's rule a seam hides edges that take part. Vertices decay alone.
@@ -67,16 +63,18 @@ Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, cons
   };
   base.edges = std::move(net.semi_sharp_edges_);
   for (const Index e : base.edges) {
+    pace.spend(16);
     const Index h = net.topology_.edge_half_edges(e)[0];
     pairs.push_back({position(mesh.semi_sharp(0).edges, mesh.topology_.half_edge_edge(h)),
                      side(net.topology_, h) != side(mesh.topology_, h)});
   }
-  net.list_semi_sharp_vertices(base);
+  net.list_semi_sharp_vertices(base, pace);
   for (Index level = 0; level <= net.max_level_ + 1; ++level) {
     const SemiSharp& from = mesh.semi_sharp(level);
     SemiSharp to;
     to.per_edge = from.per_edge;
     for (std::size_t k = 0; k < base.edges.size(); ++k) {
+      pace.spend(16 + from.per_edge);
       const Index mesh_edge = mesh.semi_sharp(0).edges[pairs[k].in_mesh];
       const std::size_t at = position(from.edges, mesh_edge);
       if (at == from.edges.size()) continue;  // it has run out
@@ -84,17 +82,16 @@ Result<Net> Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, cons
       for (Count s = 0; s < from.per_edge; ++s)
         to.segments.push_back(from.segment(at, pairs[k].reversed ? from.per_edge - 1 - s : s));
     }
-    for (std::size_t k = 0; k < base.vertices.size(); ++k)
-      if (is_sharp(base.vertex_sharpness[k])) {
-        to.vertices.push_back(base.vertices[k]);
-        to.vertex_sharpness.push_back(base.vertex_sharpness[k]);
-        base.vertex_sharpness[k] = decay(base.vertex_sharpness[k]);
-      }
+    pace.for_each(base.vertices.size(), [&](std::size_t k) {
+      if (!is_sharp(base.vertex_sharpness[k])) return;
+      to.vertices.push_back(base.vertices[k]);
+      to.vertex_sharpness.push_back(base.vertex_sharpness[k]);
+      base.vertex_sharpness[k] = decay(base.vertex_sharpness[k]);
+    });
     if (to.empty()) break;
     net.levels_.push_back(std::move(to));
-    if (auto stop = budget.poll()) return *stop;
   }
-  net.list_unsettled();
+  net.list_unsettled(pace);
   return net;
 }
 
@@ -123,29 +120,37 @@ float Net::sharpness_far(Index level, Index e, Index v) const {
   return segment_sharpness(level + 1, e, topology_.edge_vertices(e)[0] == v ? 1 : segments(level + 1) - 2);
 }
 
-Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
-  const Index vertices = topology_.vertex_count();
-  vertex_rules_.assign(vertices, linear_ ? VertexRule::corner : VertexRule::smooth);
-  edge_rules_.assign(topology_.edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
-  if (linear_) return {};
+void Net::set_rules(bool linear_borders, const Pace& pace) {
+  pace.fill(vertex_rules_, topology_.vertex_count(), linear_ ? VertexRule::corner : VertexRule::smooth);
+  pace.fill(edge_rules_, topology_.edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
+  if (linear_) return;
   // Infinitely sharp edges turn a smooth vertex into a dart, a crease, a corner.
-  for_each_set(std::span(std::as_const(sharpness_.edges)), [&](std::size_t k) {
-    const auto e = static_cast<Index>(k);
-    if (!is_infinite(sharpness_.edges[e])) {
-      semi_sharp_edges_.push_back(e);
-      return;
-    }
-    edge_rules_[e] = linear_borders && topology_.is_boundary(e) ? EdgeRule::linear : EdgeRule::crease;
-    for (const Index v : topology_.edge_vertices(e))
-      vertex_rules_[v] = static_cast<VertexRule>(
-          std::min(static_cast<int>(vertex_rules_[v]) + 1, static_cast<int>(VertexRule::corner)));
-  });
-  if (auto stop = budget.poll()) return *stop;
-  for_each_set(std::span(std::as_const(sharpness_.vertices)), [&](std::size_t v) {
-    if (is_infinite(sharpness_.vertices[v])) vertex_rules_[v] = VertexRule::corner;
-  });
+  for_each_set(
+      std::span(std::as_const(sharpness_.edges)),
+      [&](std::size_t k) {
+        const auto e = static_cast<Index>(k);
+        if (!is_infinite(sharpness_.edges[e])) {
+          semi_sharp_edges_.push_back(e);
+          return;
+        }
+        edge_rules_[e] = linear_borders && topology_.is_boundary(e) ? EdgeRule::linear : EdgeRule::crease;
+        for (const Index v : topology_.edge_vertices(e))
+          vertex_rules_[v] = static_cast<VertexRule>(
+              std::min(static_cast<int>(vertex_rules_[v]) + 1, static_cast<int>(VertexRule::corner)));
+      },
+      pace);
+  for_each_set(
+      std::span(std::as_const(sharpness_.vertices)),
+      [&](std::size_t v) {
+        if (is_infinite(sharpness_.vertices[v])) vertex_rules_[v] = VertexRule::corner;
+      },
+      pace);
+  list_vertices(pace);
+}
+
+void Net::list_vertices(const Pace& pace) {
   std::array<bool, kListedValence + 1> present{};
-  for (Index v = 0; v < vertices; ++v) {
+  pace.for_each(topology_.vertex_count(), [&](Index v) {
     const std::size_t valence = topology_.vertex_corners(v).size();
     if (valence == 0) vertex_rules_[v] = VertexRule::corner;
     if (vertex_rules_[v] <= VertexRule::dart && valence <= kListedValence)
@@ -153,54 +158,59 @@ Result<void> Net::set_rules(bool linear_borders, const Budget& budget) {
     else
       special_vertices_.push_back(v);
     if (vertex_rules_[v] == VertexRule::dart) darts_.push_back(v);
-  }
+  });
   for (Index n = 0; n <= kListedValence; ++n)
     if (present[n]) valences_.push_back(n);
-  return {};
 }
 
-void Net::list_semi_sharp_vertices(SemiSharp& base) const {
-  for_each_set(std::span(sharpness_.vertices), [&](std::size_t v) {
-    if (!is_semi_sharp(sharpness_.vertices[v])) return;
-    base.vertices.push_back(static_cast<Index>(v));
-    base.vertex_sharpness.push_back(sharpness_.vertices[v]);
-  });
+void Net::list_semi_sharp_vertices(SemiSharp& base, const Pace& pace) const {
+  for_each_set(
+      std::span(sharpness_.vertices),
+      [&](std::size_t v) {
+        if (!is_semi_sharp(sharpness_.vertices[v])) return;
+        base.vertices.push_back(static_cast<Index>(v));
+        base.vertex_sharpness.push_back(sharpness_.vertices[v]);
+      },
+      pace);
 }
 
-Result<void> Net::decay_all(const Budget& budget) {
+void Net::decay_all(const Pace& pace) {
   SemiSharp base;
   base.edges = std::move(semi_sharp_edges_);
-  for (const Index e : base.edges) base.segments.push_back(sharpness_.edges[e]);
-  list_semi_sharp_vertices(base);
+  base.segments.reserve(base.edges.size());
+  pace.for_each(base.edges.size(),
+                [&](std::size_t k) { base.segments.push_back(sharpness_.edges[base.edges[k]]); });
+  list_semi_sharp_vertices(base, pace);
   while (!base.empty() && levels_.size() <= max_level_ + 1) {
-    if (auto stop = budget.poll()) return *stop;
     levels_.push_back(std::move(base));
-    base = decayed(levels_.back(), static_cast<Index>(levels_.size() - 1));
+    base = decayed(levels_.back(), static_cast<Index>(levels_.size() - 1), pace);
   }
-  return {};
 }
 
 // One level on.
-SemiSharp Net::decayed(const SemiSharp& level, Index index) const {
+SemiSharp Net::decayed(const SemiSharp& level, Index index, const Pace& pace) const {
   SemiSharp next;
-  for (std::size_t k = 0; k < level.vertices.size(); ++k)
-    if (const float s = decay(level.vertex_sharpness[k]); is_sharp(s)) {
-      next.vertices.push_back(level.vertices[k]);
-      next.vertex_sharpness.push_back(s);
-    }
+  pace.for_each(level.vertices.size(), [&](std::size_t k) {
+    const float s = decay(level.vertex_sharpness[k]);
+    if (!is_sharp(s)) return;
+    next.vertices.push_back(level.vertices[k]);
+    next.vertex_sharpness.push_back(s);
+  });
   if (method_ == CreaseMethod::uniform) {
-    for (std::size_t k = 0; k < level.edges.size(); ++k)
-      if (const float s = decay(level.segments[k]); is_sharp(s)) {
-        next.edges.push_back(level.edges[k]);
-        next.segments.push_back(s);
-      }
+    pace.for_each(level.edges.size(), [&](std::size_t k) {
+      const float s = decay(level.segments[k]);
+      if (!is_sharp(s)) return;
+      next.edges.push_back(level.edges[k]);
+      next.segments.push_back(s);
+    });
     return next;
   }
   const Count n = segments(index);
   next.per_edge = 2 * n;
-  next.edges = level.edges;
-  next.segments.assign(next.edges.size() * next.per_edge, 0.0f);
-  for (std::size_t k = 0; k < level.edges.size(); ++k)
+  pace.copy(level.edges, next.edges);
+  pace.fill(next.segments, next.edges.size() * next.per_edge, 0.0f);
+  for (std::size_t k = 0; k < level.edges.size(); ++k) {
+    pace.spend(n);
     for (Count i = 1; i < n; ++i) {
       const std::array<float, 2> parent{level.segment(k, i - 1), level.segment(k, i)};
       std::array<float, 2> child{};
@@ -208,10 +218,12 @@ SemiSharp Net::decayed(const SemiSharp& level, Index index) const {
       next.segments[k * next.per_edge + 2 * i - 1] = child[0];
       next.segments[k * next.per_edge + 2 * i] = child[1];
     }
-  decay_ends(level, index, next);
+  }
+  decay_ends(level, index, next, pace);
   // Leave out the edges that have run out altogether.
   std::size_t kept = 0;
   for (std::size_t k = 0; k < next.edges.size(); ++k) {
+    pace.spend(next.per_edge);
     const auto first = next.segments.begin() + static_cast<std::ptrdiff_t>(k * next.per_edge);
     const auto last = first + static_cast<std::ptrdiff_t>(next.per_edge);
     if (std::none_of(first, last, is_sharp)) continue;
@@ -224,33 +236,42 @@ SemiSharp Net::decayed(const SemiSharp& level, Index index) const {
 }
 
 // The halves next to base vertices, around which all edges decay together.
-void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to) const {
-  std::vector<Index> ends;
-  for (const Index e : from.edges)
-    for (const Index v : topology_.edge_vertices(e)) ends.push_back(v);
-  sort_unique(ends);
+void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pace& pace) const {
   std::vector<float> parent, child;
-  for (const Index v : ends) {
+  for (const Index v : with_ends({}, from.edges, pace)) {
     const auto edges = topology_.vertex_edges(v);
     parent.clear();
-    for (const Index e : edges) parent.push_back(sharpness_beside(level, e, v));
+    for (const Index e : edges) {
+      pace.spend(16);
+      parent.push_back(sharpness_beside(level, e, v));
+    }
     child.resize(parent.size());
-    decay_around_vertex(method_, parent, child);
-    for (std::size_t k = 0; k < edges.size(); ++k)
+    decay_around_vertex(method_, parent, child, pace);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      pace.spend(16);
       if (const std::size_t at = position(to.edges, edges[k]); at != to.edges.size())
         to.segments[at * to.per_edge + (topology_.edge_vertices(edges[k])[0] == v ? 0 : to.per_edge - 1)] =
             child[k];
+    }
   }
 }
 
-void Net::list_unsettled() {
-  for (const SemiSharp& level : levels_) {
-    std::vector<Index> list = level.vertices;
-    for (const Index e : level.edges)
-      for (const Index v : topology_.edge_vertices(e)) list.push_back(v);
-    sort_unique(list);
-    unsettled_.push_back(std::move(list));
-  }
+// The vertices and the ends of the edges, ascending, each once.
+std::vector<Index> Net::with_ends(std::span<const Index> vertices, std::span<const Index> edges,
+                                  const Pace& pace) const {
+  std::vector<Index> list;
+  list.reserve(vertices.size() + 2 * edges.size());
+  pace.for_each(vertices.size(), [&](std::size_t k) { list.push_back(vertices[k]); });
+  pace.for_each(edges.size(), [&](std::size_t k) {
+    for (const Index v : topology_.edge_vertices(edges[k])) list.push_back(v);
+  });
+  pace.sort(list.begin(), list.end(), std::less<>());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+void Net::list_unsettled(const Pace& pace) {
+  for (const SemiSharp& level : levels_) unsettled_.push_back(with_ends(level.vertices, level.edges, pace));
 }
 
 }  // namespace subdivd

@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/budget.h"
 #include "core/base/index.h"
-#include "core/base/result.h"
+#include "core/base/pace.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/sharpness.h"
@@ -45,10 +44,10 @@ struct SemiSharp {
 class Net {
  public:
   // Of the mesh.
-  static Result<Net> build(const AnyScheme& scheme, CreaseMethod method, Topology topology,
-                           Sharpness sharpness, Index max_level, const Budget& budget);
+  static Net build(const AnyScheme& scheme, CreaseMethod method, Topology topology, Sharpness sharpness,
+                   Index max_level, const Pace& pace);
   // Of a channel of it, whose semi-sharp edges decay with the mesh's.
-  static Result<Net> build(std::shared_ptr<const Net> mesh, Channel channel, const Budget& budget);
+  static Net build(std::shared_ptr<const Net> mesh, Channel channel, const Pace& pace);
 
   const Topology& topology() const { return topology_; }
   const Sharpness& sharpness() const { return sharpness_; }
@@ -85,12 +84,15 @@ class Net {
   std::span<const Index> unsettled_vertices(Index level) const;
 
  private:
-  Result<void> set_rules(bool linear_borders, const Budget& budget);
-  void list_semi_sharp_vertices(SemiSharp& base) const;
-  void list_unsettled();
-  Result<void> decay_all(const Budget& budget);
-  SemiSharp decayed(const SemiSharp& level, Index index) const;
-  void decay_ends(const SemiSharp& from, Index level, SemiSharp& to) const;
+  void set_rules(bool linear_borders, const Pace& pace);
+  void list_vertices(const Pace& pace);
+  void list_semi_sharp_vertices(SemiSharp& base, const Pace& pace) const;
+  void list_unsettled(const Pace& pace);
+  void decay_all(const Pace& pace);
+  SemiSharp decayed(const SemiSharp& level, Index index, const Pace& pace) const;
+  void decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pace& pace) const;
+  std::vector<Index> with_ends(std::span<const Index> vertices, std::span<const Index> edges,
+                               const Pace& pace) const;
 
   std::shared_ptr<const Net> mesh_;
   AnyScheme scheme_;

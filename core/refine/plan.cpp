@@ -1,19 +1,21 @@
 #include "core/refine/plan.h"
 
-#include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "core/base/pace.h"
 #include "core/schemes/all.h"
 
 namespace subdivd {
 namespace {
 
-std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar) {
-  if (!primvar.indices.empty()) return primvar.indices;
-  std::vector<Index> corners(mesh.face_vertex_indices.size());
-  std::iota(corners.begin(), corners.end(), Index{0});
+std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar, const Pace& pace) {
+  std::vector<Index> corners;
+  if (primvar.indices.empty())
+    pace.for_each(static_cast<Index>(mesh.face_vertex_indices.size()),
+                  [&](Index k) { corners.push_back(k); });
+  else
+    pace.copy(primvar.indices, corners);
   return corners;
 }
 
@@ -29,27 +31,39 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
                  {"subdivisionScheme"},
                  0,
                  0};
-  Plan plan;
-  auto topology = Topology::build(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, budget);
-  if (!topology) return std::move(topology).error();
-  Sharpness sharpness = control_sharpness(mesh, *topology);
-  plan.holes_ = hole_flags(mesh, *topology);
-  plan.output_faces_ = static_cast<Count>(std::ranges::count(plan.holes_, 0));
-  auto net = Net::build(*scheme, options.crease_method, std::move(*topology), std::move(sharpness),
-                        options.max_level, budget);
-  if (!net) return std::move(net).error();
-  plan.nets_.push_back(std::make_shared<const Net>(std::move(*net)));
+  return stoppable(budget, [&](const Pace& pace) -> Result<Plan> {
+    Plan plan;
+    std::vector<Index> triangles;
+    pace.copy(mesh.face_vertex_indices, triangles);
+    Topology topology(static_cast<Index>(mesh.point_count()), std::move(triangles), pace);
+    // Sharpness that varies along edges takes memory at every level: not more than points alone would.
+    const LevelCounts counts = refined_counts(topology.vertex_count(), topology.edge_count(),
+                                              topology.face_count(), options.max_level);
+    if (auto fits = budget.check_bytes(counts.vertices * 3 * sizeof(float)); !fits)
+      return std::move(fits).error();
+    Sharpness sharpness = control_sharpness(mesh, topology, pace);
+    plan.holes_ = hole_flags(mesh, topology, pace);
+    pace.for_each(plan.holes_.size(), [&](std::size_t f) { plan.output_faces_ += plan.holes_[f] == 0; });
+    plan.nets_.push_back(
+        std::make_shared<const Net>(Net::build(*scheme, options.crease_method, std::move(topology),
+                                               std::move(sharpness), options.max_level, pace)));
+    plan.add_channels(mesh, options.crease_method, pace);
+    return plan;
+  });
+}
+
+void Plan::add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace) {
+  std::vector<Index> vertices;
   for (const Primvar& primvar : mesh.primvars) {
+    pace.spend(64);
     if (primvar.interpolation != Interpolation::face_varying) continue;
-    if (auto stop = budget.poll()) return *stop;
-    Channel channel = make_channel(mesh, options.crease_method, plan.mesh().topology(),
-                                   plan.mesh().sharpness(), corner_values(mesh, primvar),
-                                   static_cast<Index>(primvar.values.size() / primvar.element_size));
-    auto own = Net::build(plan.nets_[0], std::move(channel), budget);
-    if (!own) return std::move(own).error();
-    plan.nets_.push_back(std::make_shared<const Net>(std::move(*own)));
+    const Net& points = this->mesh();
+    if (vertices.empty()) vertices = vertices_with_faces(points.topology(), pace);
+    Channel channel = make_channel(mesh, method, points.topology(), points.sharpness(), vertices,
+                                   corner_values(mesh, primvar, pace),
+                                   static_cast<Index>(primvar.values.size() / primvar.element_size), pace);
+    nets_.push_back(std::make_shared<const Net>(Net::build(nets_[0], std::move(channel), pace)));
   }
-  return plan;
 }
 
 LevelCounts Plan::counts(Index level) const {

@@ -9,6 +9,7 @@
 
 #include "core/base/budget.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
 #include "core/refine/net.h"
@@ -25,8 +26,8 @@ struct PlanOptions {
 
 class Plan {
  public:
-  // `mesh` must have passed check(). Fails for an unknown scheme and when the budget is polled dry. Linear in
-  // the size of the mesh.
+  // `mesh` must have passed check(). Fails for an unknown scheme, when the points alone of max_level would
+  // take more than budget.max_bytes, and when the budget says to stop. Linear in the size of the mesh.
   static Result<Plan> build(const ControlMesh& mesh, const PlanOptions& options, const Budget& budget);
 
   const Net& mesh() const { return *nets_[0]; }                      // points, vertex and varying primvars
@@ -37,6 +38,8 @@ class Plan {
   LevelCounts counts(Index level) const;
 
  private:
+  void add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace);
+
   std::vector<std::shared_ptr<const Net>> nets_;
   std::vector<unsigned char> holes_;
   Count output_faces_ = 0;

@@ -34,10 +34,12 @@ struct RefinedSize {
 };
 // Refuses (out_of_range, too_large) levels over kMaxLevel and results that 32-bit indices cannot number.
 template <class Real>
-Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& options);
+Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& options,
+                                 const Budget& budget = {});
 
-// `mesh` must have passed check(). Fails for an unknown scheme, for values too large for Real, for sizes
-// (too_large, against budget.max_bytes as predicted) and when the budget is polled dry. The answer depends on
+// `mesh` must have passed check(). Fails for an unknown scheme, for values too large for Real
+// (check_magnitudes), for sizes (too_large, against budget.max_bytes as predicted) and when the budget says to
+// stop: some milliseconds after it does. The answer depends on
 // the arguments alone, to the bit. Instantiated for float and double.
 template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);

@@ -1,6 +1,10 @@
 #include "core/refine/render_mesh.h"
 
 #include <algorithm>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "core/mesh/topology.h"
 #include "core/refine/numbering.h"
@@ -10,16 +14,13 @@ namespace subdivd {
 namespace {
 
 // For every refined vertex of the render mesh the refined vertex of `net` at the same place of the same face.
-Result<Buffer<Index>> sources_of(const Topology& render, const Topology& net, Index first_face, Index level,
-                                 std::span<const unsigned char> holes, Count vertex_count,
-                                 const Budget& budget) {
+Buffer<Index> sources_of(const Topology& render, const Topology& net, Index first_face, Index level,
+                         std::span<const unsigned char> holes, Count vertex_count, const Pace& pace) {
   const Count n = segments(level);
-  Buffer<Index> sources(vertex_count);
-  std::ranges::fill(sources, kNoIndex);
-  const Count faces_per_poll = std::max<Count>(1, (Count{1} << 18) / (n * n));
+  Buffer<Index> sources;
+  pace.fill(sources, vertex_count, kNoIndex);
   for (Index face = 0; face < render.face_count(); ++face) {
-    if (face % faces_per_poll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(3 * n);
     if (holes[face] != 0) continue;
     const FaceNumbers to(render, n, face), from(net, n, first_face + face);
     for (int k = 0; k < 3; ++k) {
@@ -27,50 +28,66 @@ Result<Buffer<Index>> sources_of(const Topology& render, const Topology& net, In
       for (Index p = 0; p + 1 < n; ++p)
         sources[static_cast<Index>(to.side[k] + p * to.step[k])] = from.side[k] + p * from.step[k];
     }
-    for (Index p = 0; p < inner_points(n); ++p) sources[to.inside + p] = from.inside + p;
+    pace.for_each(inner_points(n), [&](Count p) {
+      sources[to.inside + p] = static_cast<Index>(from.inside + p);
+    });
   }
   return sources;
+}
+
+// Edges of the triangles, of whose vertex numbers most may be unused.
+Count count_edges(Index vertex_count, std::span<const Index> triangles, const Pace& pace) {
+  std::vector<Index> indices;
+  pace.copy(triangles, indices);
+  if (vertex_count > triangles.size()) {
+    std::vector<Index> used;
+    pace.copy(triangles, used);
+    pace.sort(used.begin(), used.end(), std::less<>());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    pace.for_each(indices.size(), [&](std::size_t k) {
+      indices[k] = static_cast<Index>(std::ranges::lower_bound(used, indices[k]) - used.begin());
+    });
+    vertex_count = static_cast<Index>(used.size());
+  }
+  return Topology(vertex_count, std::move(indices), pace).edge_count();
+}
+
+Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Plan& plan, Index level, Index triangle_begin,
+                                 Index threads, const Budget& budget, const Pace& pace) {
+  std::vector<Index> indices;
+  pace.copy(mesh.indices, indices);
+  const Topology topology(mesh.vertex_count, std::move(indices), pace);
+  const auto holes = plan.holes().subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
+  RefinedRenderMesh refined;
+  refined.vertex_count = static_cast<Index>(Numbering(topology, level).vertex_count());
+  const auto faces = static_cast<Count>(std::ranges::count(holes, 0));
+  refined.triangle_begin = triangle_begin;
+  refined.triangle_end = static_cast<Index>(triangle_begin + (faces << (2 * level)));
+  refined.indices.resize(3 * Count{refined.triangle_end - refined.triangle_begin});
+  if (auto done = write_triangles(topology, level, holes, refined.indices.data(), threads, budget); !done)
+    return std::move(done).error();
+  const auto sources = [&](const Net& net) {
+    return sources_of(topology, net.topology(), mesh.face_begin, level, holes, refined.vertex_count, pace);
+  };
+  refined.source_vertices = sources(plan.mesh());
+  refined.source_values.reserve(plan.channel_count());
+  for (std::size_t k = 0; k < plan.channel_count(); ++k)
+    refined.source_values.push_back(sources(plan.channel(k)));
+  return refined;
 }
 
 }  // namespace
 
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan& plan, Index level,
-                                             Index threads, const Budget& budget) {
-  const auto topology = Topology::build(mesh.vertex_count, mesh.indices, budget);
-  if (!topology) return topology.error();
-  const Count n = segments(level);
-  const auto holes = plan.holes();
-  const auto own_holes = holes.subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
-  RefinedRenderMesh refined;
-  refined.vertex_count = static_cast<Index>(Numbering(*topology, level).vertex_count());
-  const auto triangles = [&](std::span<const unsigned char> faces) {
-    return static_cast<Count>(std::ranges::count(faces, 0)) * n * n;
-  };
-  refined.triangle_begin = static_cast<Index>(triangles(holes.first(mesh.face_begin)));
-  refined.triangle_end = static_cast<Index>(refined.triangle_begin + triangles(own_holes));
-  refined.indices.resize(3 * Count{refined.triangle_end - refined.triangle_begin});
-  if (auto done = write_triangles(*topology, level, own_holes, refined.indices.data(), threads, budget);
-      !done)
-    return std::move(done).error();
-  const auto sources = [&](const Net& net) {
-    return sources_of(*topology, net.topology(), mesh.face_begin, level, own_holes, refined.vertex_count,
-                      budget);
-  };
-  auto vertices = sources(plan.mesh());
-  if (!vertices) return std::move(vertices).error();
-  refined.source_vertices = std::move(*vertices);
-  for (std::size_t k = 0; k < plan.channel_count(); ++k) {
-    auto values = sources(plan.channel(k));
-    if (!values) return std::move(values).error();
-    refined.source_values.push_back(std::move(*values));
-  }
-  return refined;
+                                             Index triangle_begin, Index threads, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) {
+    return refine(mesh, plan, level, triangle_begin, threads, budget, pace);
+  });
 }
 
-Result<Count> count_render_vertices(const RenderMesh& mesh, Index level, const Budget& budget) {
-  const auto topology = Topology::build(mesh.vertex_count, mesh.indices, budget);
-  if (!topology) return topology.error();
-  return refined_counts(topology->vertex_count(), topology->edge_count(), topology->face_count(), level)
+Count count_render_vertices(const RenderMesh& mesh, Index level, const Pace& pace) {
+  return refined_counts(mesh.vertex_count, count_edges(mesh.vertex_count, mesh.indices, pace),
+                        mesh.face_end - mesh.face_begin, level)
       .vertices;
 }
 

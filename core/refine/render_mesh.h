@@ -3,6 +3,7 @@
 // own vertices, in which a seam of any attribute is a border.
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
 #include "core/refine/plan.h"
@@ -10,10 +11,12 @@
 
 namespace subdivd {
 
+// `triangle_begin`: output triangles of the faces before this render mesh's. Takes time and memory for its own
+// faces and vertices alone: a mesh may have a hundred thousand of them.
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan& plan, Index level,
-                                             Index threads, const Budget& budget);
+                                             Index triangle_begin, Index threads, const Budget& budget);
 
-// Vertices that refine_render_mesh would make.
-Result<Count> count_render_vertices(const RenderMesh& mesh, Index level, const Budget& budget);
+// Vertices that refine_render_mesh would make. Takes time for its faces alone: it may have far more vertices.
+Count count_render_vertices(const RenderMesh& mesh, Index level, const Pace& pace);
 
 }  // namespace subdivd

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/base/parallel.h"
 #include "core/refine/numbering.h"
 
@@ -32,7 +33,8 @@ constexpr auto pattern() {
 
 class FaceWriter {
  public:
-  FaceWriter(const Topology& topology, Index level) : topology_(topology), n_(segments(level)) {}
+  FaceWriter(const Topology& topology, Index level, const Pace& pace)
+      : topology_(topology), n_(segments(level)), pace_(pace) {}
 
   void write(Index face, Index* out) {
     if (n_ == 2) return write_four(face, out);
@@ -98,6 +100,7 @@ class FaceWriter {
   void write_by_rows(const FaceNumbers& numbers, Index* out) {
     Row low = row(numbers, 0);
     for (Count j = 0; j < n_; ++j) {
+      pace_.spend(n_ - j);
       const Row high = row(numbers, j + 1);
       out = write_row(low, high, n_ - j, out);
       low = high;
@@ -156,22 +159,27 @@ class FaceWriter {
 
   const Topology& topology_;
   Count n_;
+  const Pace& pace_;
 };
+
+constexpr Count kWorthSharing = 1 << 16;  // indices: starting a thread takes as long
 
 }  // namespace
 
 Result<void> write_triangles(const Topology& topology, Index level, std::span<const unsigned char> holes,
                              Index* out, Index threads, const Budget& budget) {
   const Count per_face = 3 * segments(level) * segments(level);
+  if (per_face * topology.face_count() < kWorthSharing) threads = 1;
   return Team::run(threads, budget, [&](Worker& worker) {
-    FaceWriter writer(topology, level);
+    const Pace pace(worker);
+    FaceWriter writer(topology, level, pace);
     const Range share = worker.share(topology.face_count());
     Index* at =
         out + per_face * static_cast<Count>(std::count(
                              holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(share.begin), 0));
     constexpr Count kFacesPerPoll = 64;
     for (Count face = share.begin; face < share.end; ++face) {
-      if (face % kFacesPerPoll == 0 && !worker.go_on(kFacesPerPoll * per_face / 8)) return;
+      if (face % kFacesPerPoll == 0) pace.spend(kFacesPerPoll * std::min<Count>(per_face, 192) / 8);
       if (holes[face] != 0) continue;
       writer.write(static_cast<Index>(face), at);
       at += per_face;

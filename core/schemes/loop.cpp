@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/mesh/sharpness.h"
 
@@ -96,11 +97,13 @@ VertexMask Loop::crease_limit_mask(Index a, Index b) const { return {2.0 / 3, 0,
 //   e_0:  a = beta x + a / 2 + 1/8 (y_1 + y_{n-1}).
 // With r + 1/r = 5, r = (5 - sqrt(21)) / 2:  y_k = 8/3 beta x (1 - (r^k + r^{n-k}) / (1 + r^n)),
 // a = 2 beta x + y_1 / 2 (y_1 = y_{n-1}), and the sum is 1.
-RingMask Loop::dart_limit_mask(Index n) const {
+RingMask Loop::dart_limit_mask(Index n, const Pace& pace) const {
   const double r = (5 - std::sqrt(21.0)) / 2;
   RingMask mask{1, std::vector<double>(n)};
-  for (Index k = 1; k < n; ++k)
+  for (Index k = 1; k < n; ++k) {
+    pace.spend(8);
     mask.edges[k] = 8.0 / 3 * beta(n) * (1 - (std::pow(r, k) + std::pow(r, n - k)) / (1 + std::pow(r, n)));
+  }
   mask.edges[0] = 2 * beta(n) + (n > 1 ? mask.edges[1] / 2 : 0);
   const double sum = sum_of(mask);
   mask.self /= sum;
@@ -108,28 +111,29 @@ RingMask Loop::dart_limit_mask(Index n) const {
   return mask;
 }
 
-RingMask Loop::smooth_tangent_u(Index n) const {
+RingMask Loop::smooth_tangent_u(Index n, const Pace& pace) const {
   RingMask mask{0, std::vector<double>(n)};
-  for (Index k = 0; k < n; ++k) mask.edges[k] = std::cos(2 * pi * k / n);
+  pace.for_each(n, [&](Index k) { mask.edges[k] = std::cos(2 * pi * k / n); });
   return mask;
 }
 
-RingMask Loop::smooth_tangent_v(Index n) const {
+RingMask Loop::smooth_tangent_v(Index n, const Pace& pace) const {
   RingMask mask{0, std::vector<double>(n)};
-  for (Index k = 0; k < n; ++k) mask.edges[k] = std::sin(2 * pi * k / n);
+  pace.for_each(n, [&](Index k) { mask.edges[k] = std::sin(2 * pi * k / n); });
   return mask;
 }
 
 // Power iteration of m <- m S on the masks that are symmetric about the crease and sum to 0 (so that the
 // eigenvalue 1, whose right eigenvector is constant, plays no part).
-RingMask Loop::dart_tangent_u(Index n) const {
+RingMask Loop::dart_tangent_u(Index n, const Pace& pace) const {
   const double b = beta(n);
-  const RingMask limit = dart_limit_mask(n);
-  RingMask m = smooth_tangent_u(n);
+  const RingMask limit = dart_limit_mask(n, pace);
+  RingMask m = smooth_tangent_u(n, pace);
   for (int step = 0; step < 128; ++step) {
     RingMask next{(1 - n * b) * m.self + m.edges[0] / 2, std::vector<double>(n)};
     next.edges[0] = b * m.self + m.edges[0] / 2;
     for (Index k = 1; k < n; ++k) {
+      pace.spend(1);
       next.self += 3.0 / 8 * m.edges[k];
       next.edges[k] += b * m.self + 3.0 / 8 * m.edges[k];
       next.edges[k - 1] += m.edges[k] / 8;
@@ -139,13 +143,14 @@ RingMask Loop::dart_tangent_u(Index n) const {
     next.self -= sum * limit.self;
     double largest = 0;
     for (Index k = 0; k < n; ++k) {
+      pace.spend(1);
       next.edges[k] -= sum * limit.edges[k];
       largest = std::max(largest, std::abs(next.edges[k]));
     }
     if (largest == 0) return m;
     next.self /= largest;
     for (double& weight : next.edges) weight /= largest;
-    m = next;
+    m = std::move(next);
   }
   return m;
 }
@@ -154,12 +159,12 @@ RingMask Loop::dart_tangent_u(Index n) const {
 // ask for, the column of e_0 gives a (1 + 2 cos(theta)) = sin(theta) - cot(theta / 2) (weights sum to 0 and
 // sum sin(i theta) = cot(theta / 2)). The formula often printed, sin(theta) for the ends and
 // (2 cos(theta) - 2) sin(i theta) between, belongs to the other edge rule; it agrees only where m = 2.
-RingMask Loop::crease_tangent_across(Index m) const {
+RingMask Loop::crease_tangent_across(Index m, const Pace& pace) const {
   RingMask mask{0, std::vector<double>(m + 1)};
   if (m == 1) return {-2, {1, 1}};
   if (m == 2) return {-1, {0, 1, 0}};
   const double theta = pi / m;
-  for (Index i = 1; i < m; ++i) mask.edges[i] = std::sin(i * theta);
+  pace.for_each(m - 1, [&](Index i) { mask.edges[i + 1] = std::sin((i + 1) * theta); });
   mask.edges[0] = mask.edges[m] = -std::cos(theta) / std::tan(theta / 2) / (1 + 2 * std::cos(theta));
   mask.self = -sum_of(mask);
   return mask;

@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "core/base/pace.h"
 #include "core/schemes/scheme.h"
 
 namespace subdivd {
@@ -15,6 +16,7 @@ namespace subdivd {
 // beta(n) of the smooth vertex point. The two agree at valences 3 and 6 only.
 enum class LoopWeights { loop, warren };
 
+// What takes a pace has one weight for each edge of a ring that may have millions.
 struct Loop {
   static constexpr std::string_view name = "loop";
   static constexpr Split split = Split::triangles;
@@ -41,20 +43,20 @@ struct Loop {
   VertexMask crease_limit_mask(Index a, Index b) const;
   // dart: the vertex point is the smooth one but the edge point on the crease (edge 0) is 1/2, 1/2, so the
   // smooth limit mask is no eigenvector here. Derivation in loop.cpp.
-  RingMask dart_limit_mask(Index n) const;
+  RingMask dart_limit_mask(Index n, const Pace& pace = {}) const;
 
   // Tangents at a smooth vertex: sum cos(2 pi k / n) e_k and sum sin(2 pi k / n) e_k; they shrink by
   // (3 + 2 cos(2 pi / n)) / 8 a level. Ring counter-clockwise: the cross product points outwards.
-  RingMask smooth_tangent_u(Index n) const;
-  RingMask smooth_tangent_v(Index n) const;
+  RingMask smooth_tangent_u(Index n, const Pace& pace = {}) const;
+  RingMask smooth_tangent_v(Index n, const Pace& pace = {}) const;
   // At a dart whose crease is edge 0: the sine is the same; the cosine's place is taken by the dominant
   // eigenvector that is symmetric about the crease, found by iteration (no closed form for all n).
-  RingMask dart_tangent_u(Index n) const;
+  RingMask dart_tangent_u(Index n, const Pace& pace = {}) const;
   // Across a sector of m >= 1 faces between two crease edges 0 and m; with theta = pi / m
   //   e_0, e_m: -cos(theta) cot(theta / 2) / (1 + 2 cos(theta)),   e_i: sin(i theta),   v: minus the sum;
   // m = 1: e_0 + e_1 - 2 v.  m = 2: e_1 - v.  It is a left eigenvector for 3/8 + cos(theta) / 4 (m = 1: 1/4).
   // The tangent along the crease is e_0 - e_m, eigenvalue 1/2.
-  RingMask crease_tangent_across(Index m) const;
+  RingMask crease_tangent_across(Index m, const Pace& pace = {}) const;
 };
 
 static_assert(SubdivisionScheme<Loop>);

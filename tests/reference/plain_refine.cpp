@@ -32,7 +32,7 @@ Control make_control(const ControlMesh& mesh, CreaseMethod method) {
       std::iota(corners.begin(), corners.end(), Index{0});
     }
     control.channels.push_back(
-        make_channel(mesh, method, control.topology, control.sharpness, corners,
+        make_channel(mesh, method, control.topology, control.sharpness, vertices_with_faces(control.topology), corners,
                      static_cast<Index>(primvar.values.size() / primvar.element_size)));
   }
   return control;
@@ -128,7 +128,9 @@ class Refinement {
         std::copy_n(frames[0].u, 3, out.tangents_u.data() + at);
         std::copy_n(frames[0].v, 3, out.tangents_v.data() + at);
       }
-      if (options_.normals) mean_normal<Real>(frames, out.normals.data() + at);
+      FrameMean<Real> mean;
+      for (const Frame<Real>& frame : frames) mean.add(frame);
+      if (options_.normals) mean.normal(out.normals.data() + at);
     });
   }
 

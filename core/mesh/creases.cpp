@@ -1,0 +1,109 @@
+#include "core/mesh/creases.h"
+
+#include <algorithm>
+
+namespace subdivd {
+namespace {
+
+// The pairs that have the same lower vertex, together and in their order: no search for each pair along the
+// edges of a hub, and no hashing of numbers that a caller chose.
+class PairsByVertex {
+ public:
+  PairsByVertex(Index vertex_count, std::span<const VertexPair> pairs, const Pace& pace) {
+    pace.fill(offsets_, Count{vertex_count} + 1, 0);
+    const auto low = [&](Count k) { return std::min(pairs[k][0], pairs[k][1]); };
+    const auto is_known = [&](Count k) { return std::max(pairs[k][0], pairs[k][1]) < vertex_count; };
+    pace.for_each(pairs.size(), [&](Count k) {
+      if (is_known(k)) ++offsets_[low(k) + 1];
+    });
+    pace.for_each(Count{vertex_count}, [&](Count v) { offsets_[v + 1] += offsets_[v]; });
+    std::vector<Index> ends;
+    pace.copy(offsets_, ends);
+    pace.fill(pairs_, offsets_.back(), 0);
+    pace.for_each(pairs.size(), [&](Count k) {
+      if (is_known(k)) pairs_[ends[low(k)]++] = static_cast<Index>(k);
+    });
+  }
+
+  // Numbers of the pairs whose lower vertex is v, ascending.
+  std::span<const Index> at(Index v) const {
+    return std::span(pairs_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+
+ private:
+  std::vector<Index> offsets_, pairs_;
+};
+
+}  // namespace
+
+std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> triangles,
+                                     std::span<const VertexPair> pairs, const Pace& pace) {
+  std::vector<unsigned char> found;
+  pace.fill(found, pairs.size(), 0);
+  const PairsByVertex wanted(vertex_count, pairs, pace);
+  // The half-edges at vertices that pairs have as their lower one: their higher ends, vertex by vertex.
+  std::vector<Index> ends, offsets;
+  pace.fill(offsets, Count{vertex_count} + 1, 0);
+  const auto for_each_wanted = [&](auto&& f) {
+    pace.for_each(triangles.size() / 3, [&](Count face) {
+      for (Count k = 0; k < 3; ++k) {
+        const Index a = triangles[3 * face + k], b = triangles[3 * face + (k + 1) % 3];
+        const Index low = std::min(a, b), high = std::max(a, b);
+        if (high < vertex_count && !wanted.at(low).empty()) f(low, high);
+      }
+    });
+  };
+  for_each_wanted([&](Index low, Index) { ++offsets[low + 1]; });
+  pace.for_each(Count{vertex_count}, [&](Count v) { offsets[v + 1] += offsets[v]; });
+  pace.fill(ends, offsets.back(), 0);
+  for_each_wanted([&](Index low, Index high) { ends[offsets[low]++] = high; });  // offsets: now ends of rows
+
+  std::vector<Index> reached;  // per vertex the last one that was found to have an edge to it
+  pace.fill(reached, vertex_count, kNoIndex);
+  Index begin = 0;
+  for (Index v = 0; v < vertex_count; begin = offsets[v++]) {
+    const auto here = wanted.at(v);
+    pace.spend(1);
+    if (here.empty()) continue;
+    pace.for_each(Count{offsets[v]} - begin, [&](Count k) { reached[ends[begin + k]] = v; });
+    pace.for_each(here.size(), [&](std::size_t k) {
+      found[here[k]] = reached[std::max(pairs[here[k]][0], pairs[here[k]][1])] == v;
+    });
+  }
+  return found;
+}
+
+std::vector<Index> edges_between(const Topology& topology, std::span<const VertexPair> pairs,
+                                 const Pace& pace) {
+  std::vector<Index> found;
+  pace.fill(found, pairs.size(), kNoIndex);
+  const PairsByVertex wanted(topology.vertex_count(), pairs, pace);
+  std::vector<Index> edge_to;  // per vertex the edge that last was found to lead to it
+  pace.fill(edge_to, topology.vertex_count(), kNoIndex);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    const auto here = wanted.at(v);
+    pace.spend(1);
+    if (here.empty()) continue;
+    const auto edges = topology.vertex_edges(v);
+    pace.for_each(edges.size(), [&](std::size_t k) { edge_to[topology.other_end(edges[k], v)] = edges[k]; });
+    pace.for_each(here.size(), [&](std::size_t k) {
+      const auto [a, b] = pairs[here[k]];
+      const VertexPair ends{std::min(a, b), std::max(a, b)};
+      if (const Index e = edge_to[ends[1]]; e != kNoIndex && topology.edge_vertices(e) == ends)
+        found[here[k]] = e;
+    });
+  }
+  return found;
+}
+
+std::vector<VertexPair> crease_edges(const ControlMesh& mesh, const Pace& pace) {
+  std::vector<VertexPair> pairs;
+  pairs.reserve(mesh.crease_indices.size());
+  for_each_crease_edge(mesh, [&](Count, Index a, Index b, float) {
+    pace.spend(1);
+    pairs.push_back({a, b});
+  });
+  return pairs;
+}
+
+}  // namespace subdivd

@@ -1,0 +1,42 @@
+#pragma once
+// Creases as edges: the one walk along the polylines of a control mesh, and the one look-up of what they run
+// along.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/base/pace.h"
+#include "core/mesh/control_mesh.h"
+#include "core/mesh/topology.h"
+
+namespace subdivd {
+
+// Calls f(position, a, b, sharpness) for every edge of every crease in the order given: from point a =
+// crease_indices[position] to b, the next. The creases' lengths and sharpnesses must fit, as check() has it.
+template <class F>
+void for_each_crease_edge(const ControlMesh& mesh, F&& f) {
+  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
+  Count position = 0, edge = 0;
+  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++position)
+    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++position, ++edge)
+      f(position, mesh.crease_indices[position], mesh.crease_indices[position + 1],
+        mesh.crease_sharpnesses[per_crease ? crease : edge]);
+}
+
+using VertexPair = std::array<Index, 2>;
+
+// For each of the pairs 1 where a triangle (3 indices each) has an edge between the two, else 0. Indices from
+// vertex_count on are on no edge. Linear, whatever the pairs are.
+std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> triangles,
+                                     std::span<const VertexPair> pairs, const Pace& pace);
+
+// The edge between the two vertices of each pair; kNoIndex: there is none. Linear, whatever the pairs are.
+std::vector<Index> edges_between(const Topology& topology, std::span<const VertexPair> pairs,
+                                 const Pace& pace);
+
+// Those that f(position, ...) above is called for.
+std::vector<VertexPair> crease_edges(const ControlMesh& mesh, const Pace& pace);
+
+}  // namespace subdivd
