@@ -11,6 +11,12 @@ using Json = nlohmann::ordered_json;
 // JSON has no infinity and no NaN: null stands for both.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+// null: of something that was asked for nothing could be compared.
+Json verdict(oracle::Verdict verdict) {
+  if (verdict == oracle::Verdict::nothing_compared) return nullptr;
+  return verdict == oracle::Verdict::passed;
+}
+
 // `faces`: the face of the input of every face that was compared; empty: the same.
 Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
   Json json;
@@ -27,7 +33,7 @@ Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) 
 
 Json deviation_json(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
   Json json = {{"quantity", deviation.quantity},
-               {"withinTolerance", deviation.within_tolerance},
+               {"withinTolerance", verdict(deviation.verdict)},
                {"tolerance", number(deviation.tolerance)},
                {"maxRelative", number(deviation.max_relative)},
                {"rmsRelative", number(deviation.rms_relative)},
@@ -48,7 +54,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
   Json json;
   if (!one.name.empty()) json["name"] = one.name;
   json["precision"] = one.precision;
-  json["passed"] = one.passed;
+  json["passed"] = verdict(one.verdict);
   json["levels"] = Json::array();
   for (const oracle::LevelReport& level : one.levels) {
     Json deviations = Json::array();
@@ -56,6 +62,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
       deviations.push_back(deviation_json(deviation, faces));
     json["levels"].push_back(
         {{"level", level.level},
+         {"passed", verdict(level.verdict())},
          {"connectivityIdentical", level.connectivity_identical},
          {"vertices", level.vertices},
          {level.quads > 0 ? "quads" : "triangles", level.quads > 0 ? level.quads : level.triangles},
@@ -68,7 +75,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
 }  // namespace
 
 std::string report(const oracle::Report& report, const RefineRequest* request) {
-  Json json = {{"oracle", report.oracle}, {"passed", report.passed}};
+  Json json = {{"oracle", report.oracle}, {"passed", verdict(report.verdict())}};
   static const std::vector<Index> kSame;
   for (std::size_t i = 0; i < report.meshes.size(); ++i) {
     const bool moved = request != nullptr && i < request->face_origins.size();
