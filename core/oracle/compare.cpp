@@ -32,6 +32,7 @@ struct Sides {
   const FarLevel<Real>& far;
   const Correspondence& pairs;
   PointScale scale;
+  Poller& poller;
   double value_tolerance = 0;  // of primvars, and of positions near the origin
 
   Tally tally(std::string quantity, double unit_size, double tolerance) const {
@@ -41,8 +42,10 @@ struct Sides {
   // Calls visit(far vertex, our vertex) for every pair, in our order.
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
-    for (Index v = 0; v < pairs.vertices.size(); ++v)
+    for (Index v = 0; v < pairs.vertices.size(); ++v) {
+      poller.spend(8);
       if (pairs.vertices[v] != kNoIndex) visit(v, pairs.vertices[v]);
+    }
   }
 };
 
@@ -52,7 +55,7 @@ Deviation incomparable(std::string quantity, double tolerance) {
   deviation.quantity = std::move(quantity);
   deviation.tolerance = tolerance;
   deviation.exception = "the two sides hold different numbers of values";
-  deviation.within_tolerance = false;
+  deviation.verdict = Verdict::failed;
   return deviation;
 }
 
@@ -133,9 +136,12 @@ double largest_difference(const Real* a, const Real* b, Index width, double scal
   return largest;
 }
 
-double primvar_scale(const Primvar& primvar) {
+double primvar_scale(const Primvar& primvar, Poller& poller) {
   double largest = 0;
-  for (const double value : primvar.values) largest = std::max(largest, std::abs(value));
+  for (const double value : primvar.values) {
+    poller.spend(1);
+    largest = std::max(largest, std::abs(value));
+  }
   return largest > 0 ? largest : 1;
 }
 
@@ -152,18 +158,22 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
       sides.for_each_pair([&](Index f, Index v) { visit(sides.site(v), f, v, f); });
       break;
     case Interpolation::uniform:
-      for (Index f = 0; f < sides.pairs.triangles.size(); ++f)
+      for (Index f = 0; f < sides.pairs.triangles.size(); ++f) {
+        sides.poller.spend(8);
         if (const Index t = sides.pairs.triangles[f]; t != kNoIndex)
           visit(Site{kNoIndex,
                      {sides.far.base_faces[f], sides.far.corners[3 * f].i, sides.far.corners[3 * f].j}},
                 kNoIndex, t, f);
+      }
       break;
     case Interpolation::face_varying:
-      for (Index c = 0; c < sides.pairs.corners.size(); ++c)
+      for (Index c = 0; c < sides.pairs.corners.size(); ++c) {
+        sides.poller.spend(8);
         if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
           visit(Site{sides.ours.triangles[corner],
                      {sides.far.base_faces[c / 3], sides.far.corners[c].i, sides.far.corners[c].j}},
                 sides.far.faces[c], ours.indices[corner], far.indices[c]);
+      }
       break;
   }
 }
@@ -186,8 +196,10 @@ bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, std::s
       break;
   }
   return ours.indices.size() == sides.ours.triangles.size() &&
-         std::all_of(ours.indices.begin(), ours.indices.end(),
-                     [&](Index index) { return index < our_values.size() / width; });
+         std::all_of(ours.indices.begin(), ours.indices.end(), [&](Index index) {
+           sides.poller.spend(1);
+           return index < our_values.size() / width;
+         });
 }
 
 template <class Real>
@@ -206,7 +218,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
       !complete(sides, ours, our_values, far_values))
     return incomparable(quantity, tolerance);
 
-  const double scale = primvar_scale(control);
+  const double scale = primvar_scale(control, sides.poller);
   Tally tally = sides.tally(quantity, scale, tolerance);
   const std::size_t width = control.element_size;
   for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
@@ -214,6 +226,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
         limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
     if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
     if (objection != nullptr) return tally.except(objection);
+    sides.poller.spend(width);
     tally.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
               site);
   });
@@ -223,11 +236,14 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
 }  // namespace
 
 template <class Real>
-LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far) {
+LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far,
+                    Poller& poller) {
   const Correspondence pairs =
-      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far);
-  Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3), value_tolerance<Real>()};
-  if (sharpness_rounds(mesh)) sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
+      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far, poller);
+  Sides<Real> sides{
+      mesh, ours, far, pairs, point_scale(mesh.points, 3, poller), poller, value_tolerance<Real>()};
+  if (sharpness_rounds(mesh, poller))
+    sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
   LevelReport report;
   report.level = far.level;
   report.connectivity_identical = pairs.identical;
@@ -245,13 +261,8 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
   return report;
 }
 
-bool passed(const LevelReport& level) {
-  return level.connectivity_identical &&
-         std::all_of(level.deviations.begin(), level.deviations.end(),
-                     [](const Deviation& deviation) { return deviation.within_tolerance; });
-}
-
-template LevelReport compare(const ControlMesh&, const RefinedMesh<float>&, const FarLevel<float>&);
-template LevelReport compare(const ControlMesh&, const RefinedMesh<double>&, const FarLevel<double>&);
+template LevelReport compare(const ControlMesh&, const RefinedMesh<float>&, const FarLevel<float>&, Poller&);
+template LevelReport compare(const ControlMesh&, const RefinedMesh<double>&, const FarLevel<double>&,
+                             Poller&);
 
 }  // namespace subdivd::oracle

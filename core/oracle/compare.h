@@ -1,11 +1,12 @@
 #pragma once
-// Our refined levels against the same levels by Far.
+// Our refined levels against the same levels by Far. All throw Stopped.
 
 #include "core/curves/subdivision.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_curves.h"
 #include "core/oracle/far_surfaces.h"
+#include "core/oracle/poller.h"
 #include "core/oracle/report.h"
 #include "core/oracle/scale.h"
 #include "core/refine/refined_mesh.h"
@@ -17,20 +18,20 @@ namespace subdivd::oracle {
 // limits and normals if present. Points and limit points deviate by a distance, primvars by the largest
 // difference of a component. Arrays of the wrong length fail as a whole (compared = 0, tolerance missed).
 template <class Real>
-LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far);
+LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far,
+                    Poller& poller);
 
 // One refined level of curves (deviations: verify.h says how the worst point is named).
 // connectivity_identical: the same number of points, curve by curve.
 template <class Real>
-LevelReport compare(const RefinedCurves<Real>& ours, const FarCurves& far, const PointScale& scale);
+LevelReport compare(const RefinedCurves<Real>& ours, const FarCurves& far, const PointScale& scale,
+                    Poller& poller);
 
 // One refined level of a bicubic surface, with its quads, and the same level by Far (deviations: verify.h
 // says how the worst point is named). connectivity_identical: a grid of the same size, of the same quads
 // whatever their order; otherwise nothing else is compared.
 template <class Real>
-LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, const FarSurface& far);
-
-// Connectivity identical and every deviation within its tolerance.
-bool passed(const LevelReport& level);
+LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, const FarSurface& far,
+                    Poller& poller);
 
 }  // namespace subdivd::oracle

@@ -2,66 +2,100 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "core/refine/split.h"
 
 namespace subdivd::oracle {
 namespace {
 
-struct PlaceHash {
-  std::size_t operator()(const std::array<Index, 3>& place) const {
-    std::uint64_t h = place[0];
-    h = h * 0x9E3779B97F4A7C15u + place[1];
-    h = h * 0x9E3779B97F4A7C15u + place[2];
-    return static_cast<std::size_t>(h ^ (h >> 29));
-  }
-};
-using VertexOfPlace = std::unordered_map<std::array<Index, 3>, Index, PlaceHash>;
+// The vertex at every place: in a table, not a hash, because places are numbers of grid points.
+class VertexOfPlace {
+ public:
+  VertexOfPlace(Index level, Count base_faces, Count base_points)
+      : n_(segments(level)),
+        per_face_((n_ + 1) * (n_ + 2) / 2),
+        faces_(base_faces * per_face_),
+        points_(base_points) {}
 
-// Our vertex at each place. Unreferenced points have none: their number, that of the control point, stands
-// in. False when two of our vertices claim one place.
-bool list_places(const OurConnectivity& ours, VertexOfPlace& vertex_of) {
-  vertex_of.reserve(ours.provenance.size());
+  // Where the table has the place; null where there is no such place. A vertex of no face (an unreferenced
+  // point) has face = kNoIndex and the number of the control point in i.
+  Index* at(const Provenance& place) {
+    if (place.face == kNoIndex) return place.i < points_.size() ? &points_[place.i] : nullptr;
+    const Count i = place.i, j = place.j;
+    if (i + j > n_) return nullptr;
+    const Count slot = place.face * per_face_ + j * (n_ + 1) - (j * j - j) / 2 + i;  // rows of n + 1, n, ...
+    return slot < faces_.size() ? &faces_[slot] : nullptr;
+  }
+  void clear(Poller& poller) {
+    for (auto* table : {&faces_, &points_})
+      for (Index& vertex : *table) {
+        poller.spend(1);
+        vertex = kNoIndex;
+      }
+  }
+
+ private:
+  Count n_, per_face_;
+  Buffer<Index> faces_, points_;
+};
+
+// Our vertex at each place. The number of one that is unreferenced is that of its control point, as in the
+// input. False when one of our vertices is nowhere, or two claim one place.
+bool list_places(const OurConnectivity& ours, VertexOfPlace& vertex_of, Poller& poller) {
   bool unique = true;
   for (Index v = 0; v < ours.provenance.size(); ++v) {
-    const Provenance& place = ours.provenance[v];
-    const Index i = place.face == kNoIndex ? v : place.i;
-    unique &= vertex_of.emplace(std::array{place.face, i, place.j}, v).second;
+    poller.spend(2);
+    Provenance place = ours.provenance[v];
+    if (place.face == kNoIndex) place.i = v;
+    Index* slot = vertex_of.at(place);
+    if (slot == nullptr || *slot != kNoIndex)
+      unique = false;
+    else
+      *slot = v;
   }
   return unique;
 }
 
 template <class Real>
-bool match_vertices(const OurConnectivity& ours, const FarLevel<Real>& far, std::vector<Index>& partner) {
-  VertexOfPlace vertex_of;
-  bool identical = list_places(ours, vertex_of) && ours.provenance.size() == far.vertices.size();
-  partner.assign(far.vertices.size(), kNoIndex);
-  for (std::size_t v = 0; v < far.vertices.size(); ++v) {
-    const Provenance& place = far.vertices[v].place;
-    const auto found = vertex_of.find({place.face, place.i, place.j});
-    if (found == vertex_of.end()) {
-      identical = false;
-      continue;
-    }
-    partner[v] = found->second;
-    vertex_of.erase(found);  // a second Far vertex at this place finds nothing
+Index base_face_count(const FarLevel<Real>& far, Poller& poller) {
+  Index count = 0;
+  for (const Index face : far.base_faces) {
+    poller.spend(1);
+    count = std::max(count, face + 1);
   }
-  return identical && vertex_of.empty();
+  return count;
+}
+
+template <class Real>
+bool match_vertices(const OurConnectivity& ours, const FarLevel<Real>& far, Buffer<Index>& partner,
+                    Poller& poller) {
+  VertexOfPlace vertex_of(far.level, base_face_count(far, poller), far.base_points);
+  vertex_of.clear(poller);
+  bool identical = list_places(ours, vertex_of, poller) && ours.provenance.size() == far.vertices.size();
+  partner.resize(far.vertices.size());
+  for (std::size_t v = 0; v < far.vertices.size(); ++v) {
+    poller.spend(2);
+    Index* slot = vertex_of.at(far.vertices[v].place);
+    partner[v] = slot == nullptr ? kNoIndex : std::exchange(*slot, kNoIndex);  // a second one finds nothing
+    identical &= partner[v] != kNoIndex;
+  }
+  return identical;  // as many on both sides, all different: none of ours is left over
 }
 
 // First triangle of every base face's block of n^2; kNoIndex for faces that are left out. Blocks that are
 // torn or of another size are left out too: their triangles then find no partner.
 template <class Real>
-std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<Real>& far) {
-  Index base_faces = 0;
-  for (const Index face : far.base_faces) base_faces = std::max(base_faces, face + 1);
+std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller) {
+  const Index base_faces = base_face_count(far, poller);
   std::vector<Index> blocks(base_faces, kNoIndex);
   const Count size = segments(ours.level) * segments(ours.level);
   const std::span<const Index> faces = ours.triangle_faces;
   for (Count begin = 0; begin < faces.size();) {
     Count end = begin;
     while (end < faces.size() && faces[end] == faces[begin]) ++end;
+    poller.spend(end - begin);
     if (end - begin == size && faces[begin] < base_faces) blocks[faces[begin]] = static_cast<Index>(begin);
     begin = end;
   }
@@ -91,16 +125,20 @@ Index rotation(const std::array<Index, 3>& far_corners, std::span<const Index> o
 }
 
 template <class Real>
-bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Correspondence& result) {
+bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Correspondence& result,
+                     Poller& poller) {
   const Count n = segments(ours.level);
   const Count faces = far.base_faces.size(), triangles = ours.triangle_faces.size();
-  const std::vector<Index> blocks = triangle_blocks(ours, far);
-  result.triangles.assign(faces, kNoIndex);
-  result.corners.assign(3 * faces, kNoIndex);
-  bool identical = ours.triangles.size() == 3 * triangles;
+  const std::vector<Index> blocks = triangle_blocks(ours, far, poller);
+  result.triangles.resize(faces);
+  result.corners.resize(3 * faces);
+  const bool identical = ours.triangles.size() == 3 * triangles;
   std::vector<unsigned char> taken(triangles, 0);
-  Count visible = 0;
+  Count visible = 0, matched = 0;
   for (Count f = 0; f < faces; ++f) {
+    poller.spend(6);
+    result.triangles[f] = kNoIndex;
+    std::fill_n(result.corners.begin() + static_cast<std::ptrdiff_t>(3 * f), 3, kNoIndex);
     if (far.holes[f] != 0) continue;
     ++visible;
     const Index block = blocks[far.base_faces[f]];
@@ -112,25 +150,25 @@ bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Cor
     const Index r = rotation(corners, ours.triangles.subspan(3 * t, 3));
     if (r == 3) continue;
     taken[t] = 1;
+    ++matched;
     result.triangles[f] = static_cast<Index>(t);
     for (Index k = 0; k < 3; ++k) result.corners[3 * f + k] = static_cast<Index>(3 * t + (k + r) % 3);
   }
-  const auto matched = static_cast<Count>(std::count(taken.begin(), taken.end(), 1));
   return identical && matched == visible && matched == triangles;
 }
 
 }  // namespace
 
 template <class Real>
-Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far) {
+Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller) {
   Correspondence result;
-  const bool same_vertices = match_vertices(ours, far, result.vertices);
-  const bool same_triangles = match_triangles(ours, far, result);
+  const bool same_vertices = match_vertices(ours, far, result.vertices, poller);
+  const bool same_triangles = match_triangles(ours, far, result, poller);
   result.identical = ours.level == far.level && same_vertices && same_triangles;
   return result;
 }
 
-template Correspondence match(const OurConnectivity&, const FarLevel<float>&);
-template Correspondence match(const OurConnectivity&, const FarLevel<double>&);
+template Correspondence match(const OurConnectivity&, const FarLevel<float>&, Poller&);
+template Correspondence match(const OurConnectivity&, const FarLevel<double>&, Poller&);
 
 }  // namespace subdivd::oracle

@@ -4,9 +4,10 @@
 // play no part.
 
 #include <span>
-#include <vector>
 
+#include "core/base/buffer.h"
 #include "core/oracle/far.h"
+#include "core/oracle/poller.h"
 #include "core/refine/refined_mesh.h"
 
 namespace subdivd::oracle {
@@ -19,16 +20,17 @@ struct OurConnectivity {
 };
 
 struct Correspondence {
-  std::vector<Index> vertices;   // per Far vertex: ours, kNoIndex when there is none
-  std::vector<Index> triangles;  // per Far face: ours, kNoIndex for holes and where none fits
+  Buffer<Index> vertices;   // per Far vertex: ours, kNoIndex when there is none
+  Buffer<Index> triangles;  // per Far face: ours, kNoIndex for holes and where none fits
   // Per Far face corner: our corner 3 t + k; kNoIndex where the triangle is missing or another.
-  std::vector<Index> corners;
+  Buffer<Index> corners;
   // Every vertex has exactly one partner and every triangle that is no hole, on either side; triangles have
   // the same corners in the same order up to rotation, and the same base face.
   bool identical = false;
 };
 
+// Throws Stopped.
 template <class Real>
-Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far);
+Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller);
 
 }  // namespace subdivd::oracle

@@ -2,12 +2,15 @@
 
 #include <opensubdiv/far/primvarRefiner.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "core/oracle/far_cost.h"
 #include "core/oracle/far_grid.h"
 #include "core/oracle/far_quirks.h"
 #include "core/oracle/far_refiner.h"
 #include "core/oracle/far_rows.h"
+#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 namespace {
@@ -16,14 +19,15 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 // Values spread out by their indices; without indices as they stand.
-template <class Real>
-std::vector<Real> spread(std::vector<Real> values, const std::vector<Index>& indices, Index width) {
+template <class Real, class Indices>
+Buffer<Real> spread(Buffer<Real> values, const Indices& indices, Index width, Poller& poller) {
   if (indices.empty()) return values;
-  std::vector<Real> result;
-  result.reserve(indices.size() * width);
-  for (const Index index : indices)
-    result.insert(result.end(), values.begin() + std::ptrdiff_t{index} * width,
-                  values.begin() + (std::ptrdiff_t{index} + 1) * width);
+  Buffer<Real> result(std::size_t{width} * indices.size());
+  auto to = result.begin();
+  for (const Index index : indices) {
+    poller.spend(width);
+    to = std::copy_n(values.begin() + std::ptrdiff_t{index} * width, width, to);
+  }
   return result;
 }
 
@@ -52,29 +56,45 @@ FarVertex describe(const Far::TopologyLevel& level, int vertex) {
   return described;
 }
 
-// Everything about one level but values.
+// The lowest base face of every vertex and the place there; the corners must stand in `result`.
 template <class Real>
-void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Real>& result) {
-  FarGrid grid = grid_of(refiner, depth);
-  const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(depth));
-  for (int v = 0; v < level.GetNumVertices(); ++v) result.vertices.push_back(describe(level, v));
-  result.faces.reserve(grid.corners.size());
-  for (int face = 0; face < level.GetNumFaces(); ++face) {
-    const Far::ConstIndexArray vertices = level.GetFaceVertices(face);
-    const Index base = grid.base_faces[static_cast<std::size_t>(face)];
+void take_faces(const Far::TopologyLevel& level, FarLevel<Real>& result, Poller& poller) {
+  const auto faces = static_cast<std::size_t>(level.GetNumFaces());
+  result.faces.resize(3 * faces);
+  result.holes.resize(faces);
+  for (std::size_t face = 0; face < faces; ++face) {
+    poller.spend(4);
+    const Far::ConstIndexArray vertices = level.GetFaceVertices(static_cast<int>(face));
+    const Index base = result.base_faces[face];
     for (int k = 0; k < 3; ++k) {
-      const GridPoint corner = grid.corners[3 * static_cast<std::size_t>(face) + static_cast<std::size_t>(k)];
+      const std::size_t at = 3 * face + static_cast<std::size_t>(k);
+      const GridPoint corner = result.corners[at];
       Provenance& place = result.vertices[static_cast<std::size_t>(vertices[k])].place;
       if (base < place.face) place = {base, corner.i, corner.j};  // kNoIndex is the largest
-      result.faces.push_back(static_cast<Index>(vertices[k]));
+      result.faces[at] = static_cast<Index>(vertices[k]);
     }
-    result.holes.push_back(level.IsFaceHole(face) ? 1 : 0);
+    result.holes[face] = level.IsFaceHole(static_cast<int>(face)) ? 1 : 0;
   }
+}
+
+// Everything about one level but values.
+template <class Real>
+void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Real>& result, Poller& poller) {
+  FarGrid grid = grid_of(refiner, depth, poller);
   result.corners = std::move(grid.corners);
   result.base_faces = std::move(grid.base_faces);
+  const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(depth));
+  result.vertices.reserve(static_cast<std::size_t>(level.GetNumVertices()));
+  for (int v = 0; v < level.GetNumVertices(); ++v) {
+    poller.spend(4 + static_cast<Count>(level.GetVertexEdges(v).size()));
+    result.vertices.push_back(describe(level, v));
+  }
+  take_faces(level, result, poller);
 
-  for (int v = 0; v < refiner.GetLevel(0).GetNumVertices(); ++v) {  // unreferenced points
-    if (refiner.GetLevel(0).GetVertexFaces(v).size() != 0) continue;
+  const Far::TopologyLevel& base = refiner.GetLevel(0);
+  for (int v = 0; v < base.GetNumVertices(); ++v) {  // unreferenced points
+    poller.spend(1 + depth);
+    if (base.GetVertexFaces(v).size() != 0) continue;
     int child = v;
     for (int l = 0; l < static_cast<int>(depth); ++l) child = refiner.GetLevel(l).GetVertexChildVertex(child);
     result.vertices[static_cast<std::size_t>(child)].place = {kNoIndex, static_cast<Index>(v), 0};
@@ -85,16 +105,16 @@ void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Re
 enum class Carrier { vertex, varying, face_varying };
 
 template <class Real>
-std::vector<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, Carrier carrier, int channel,
-                              std::vector<Real> values, Index width) {
+Buffer<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, Carrier carrier, int channel,
+                         Buffer<Real> values, Index width, Poller& poller) {
   const Far::PrimvarRefinerReal<Real> primvars(refiner);
   for (int l = 1; l <= static_cast<int>(depth); ++l) {
     const Far::TopologyLevel& level = refiner.GetLevel(l);
     const int count =
         carrier == Carrier::face_varying ? level.GetNumFVarValues(channel) : level.GetNumVertices();
-    std::vector<Real> next(static_cast<std::size_t>(count) * width);
-    const Rows<Real> from(values, width);
-    Rows<Real> to(next, width);
+    Buffer<Real> next(static_cast<std::size_t>(count) * width);
+    const Rows<Real> from(values, width, poller);
+    Rows<Real> to(next, width, poller);
     switch (carrier) {
       case Carrier::vertex:
         primvars.Interpolate(l, from, to);
@@ -112,66 +132,71 @@ std::vector<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, 
 }
 
 template <class Real>
-std::vector<Real> limits(const Far::TopologyRefiner& refiner, std::vector<Real>& values, Index width) {
-  std::vector<Real> result(values.size());
-  Rows<Real> to(result, width);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(values, width), to);
+Buffer<Real> limits(const Far::TopologyRefiner& refiner, Buffer<Real>& values, Index width, Poller& poller) {
+  Buffer<Real> result(values.size());
+  Rows<Real> to(result, width, poller);
+  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(values, width, poller), to);
   return result;
 }
 
 template <class Real>
-void take_limit_frame(const Far::TopologyRefiner& refiner, FarLevel<Real>& result) {
+void take_limit_frame(const Far::TopologyRefiner& refiner, FarLevel<Real>& result, Poller& poller) {
   const std::size_t size = result.points.size();
   result.limit_points.resize(size);
   result.tangents_u.resize(size);
   result.tangents_v.resize(size);
-  Rows<Real> limit(result.limit_points, 3), u(result.tangents_u, 3), v(result.tangents_v, 3);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(result.points, 3), limit, u, v);
+  Rows<Real> limit(result.limit_points, 3, poller), u(result.tangents_u, 3, poller),
+      v(result.tangents_v, 3, poller);
+  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(result.points, 3, poller), limit, u, v);
 }
 
 template <class Real>
 void take_face_varying(const Far::TopologyRefiner& refiner, const RefineOptions& options, int channel,
-                       std::vector<Real> control, Index width, FarPrimvar<Real>& result) {
+                       Buffer<Real> control, Index width, FarPrimvar<Real>& result, Poller& poller) {
   const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(options.level));
   result.values =
-      interpolate(refiner, options.level, Carrier::face_varying, channel, std::move(control), width);
+      interpolate(refiner, options.level, Carrier::face_varying, channel, std::move(control), width, poller);
+  result.indices.reserve(static_cast<std::size_t>(level.GetNumFaces()) * 3);
   for (int face = 0; face < level.GetNumFaces(); ++face) {
+    poller.spend(3);
     const Far::ConstIndexArray values = level.GetFaceFVarValues(face, channel);
     for (int k = 0; k < 3; ++k) result.indices.push_back(static_cast<Index>(values[k]));
   }
-  result.torn_faces = faces_at_torn_values(refiner, channel);
+  result.torn_faces = faces_at_torn_values(refiner, channel, poller);
   // At the control mesh LimitFaceVarying takes indices of values for indices of its own tags: wrong tags, and
   // a read past their end when values are left unused.
   if (!options.limit || options.level == 0) return;
   result.limit_values.resize(result.values.size());
-  Rows<Real> to(result.limit_values, width);
-  Far::PrimvarRefinerReal<Real>(refiner).LimitFaceVarying(Rows<Real>(result.values, width), to, channel);
+  Rows<Real> to(result.limit_values, width, poller);
+  Far::PrimvarRefinerReal<Real>(refiner).LimitFaceVarying(Rows<Real>(result.values, width, poller), to,
+                                                          channel);
 }
 
 template <class Real>
 Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const RefineOptions& options,
-                                      const Primvar& primvar, int channel, const FarLevel<Real>& level) {
-  auto control = converted<Real>(primvar.values, {"primvars", primvar.name, "values"});
+                                      const Primvar& primvar, int channel, const FarLevel<Real>& level,
+                                      Poller& poller) {
+  auto control = converted<Real>(primvar.values, {"primvars", primvar.name, "values"}, poller);
   if (!control) return control.error();
   const Index width = primvar.element_size;
   FarPrimvar<Real> result;
   if (primvar.interpolation == Interpolation::face_varying) {
-    take_face_varying(refiner, options, channel, std::move(*control), width, result);
+    take_face_varying(refiner, options, channel, std::move(*control), width, result, poller);
     return result;
   }
-  result.values = spread(std::move(*control), primvar.indices, width);
+  result.values = spread(std::move(*control), primvar.indices, width, poller);
   switch (primvar.interpolation) {
     case Interpolation::uniform:
-      result.values = spread(std::move(result.values), level.base_faces, width);
+      result.values = spread(std::move(result.values), level.base_faces, width, poller);
       break;
     case Interpolation::vertex:
       result.values =
-          interpolate(refiner, options.level, Carrier::vertex, 0, std::move(result.values), width);
-      if (options.limit) result.limit_values = limits(refiner, result.values, width);
+          interpolate(refiner, options.level, Carrier::vertex, 0, std::move(result.values), width, poller);
+      if (options.limit) result.limit_values = limits(refiner, result.values, width, poller);
       break;
     case Interpolation::varying:
       result.values =
-          interpolate(refiner, options.level, Carrier::varying, 0, std::move(result.values), width);
+          interpolate(refiner, options.level, Carrier::varying, 0, std::move(result.values), width, poller);
       break;
     default:
       break;
@@ -180,16 +205,6 @@ Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const
 }
 
 }  // namespace
-
-// Per refined triangle: Far's own tables, ours, and for every scalar of a primvar the values of two levels
-// and the limits on at most three values (every corner its own).
-Count far_bytes(const ControlMesh& mesh, Index level) {
-  Count per_triangle = 400;
-  for (const Primvar& primvar : mesh.primvars)
-    per_triangle += Count{primvar.element_size} * sizeof(double) *
-                    (primvar.interpolation == Interpolation::face_varying ? 9 : 2);
-  return (mesh.face_count() << (2 * level)) * per_triangle;
-}
 
 Result<void> check_far_corners(Count corners) {
   constexpr Count kMost = std::numeric_limits<int>::max();
@@ -225,44 +240,87 @@ Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& 
   // Far sums face corners over all levels: a third more than the last level has.
   const Count corners = (mesh.face_count() * 3 << (2 * level)) * 4 / 3 + mesh.point_count();
   if (auto fits = check_far_corners(corners); !fits) return fits;
-  return check_far_bytes(far_bytes(mesh, level), budget);
+  if (auto fits = check_far_bytes(far_mesh_bytes(mesh, level), budget); !fits) return fits;
+  const auto load = far_load(mesh, budget);
+  if (!load) return load.error();
+  return check_far_time(*load, level);
 }
 
-template <class Real>
-Result<FarLevel<Real>> far_refine(const ControlMesh& mesh, const RefineOptions& options,
-                                  const Budget& budget) {
-  if (auto fits = check_far_size(mesh, options.level, budget); !fits) return fits.error();
-  Result<FarRefiner> made = make_refiner(mesh, options.crease_method);
+struct FarMesh::State {
+  const ControlMesh* mesh;
+  FarRefiner refiner;
+};
+
+FarMesh::FarMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}
+FarMesh::FarMesh(FarMesh&&) noexcept = default;
+FarMesh& FarMesh::operator=(FarMesh&&) noexcept = default;
+FarMesh::~FarMesh() = default;
+
+Result<FarMesh> FarMesh::build(const ControlMesh& mesh, CreaseMethod crease_method, Index deepest,
+                               const Budget& budget) {
+  if (auto fits = check_far_size(mesh, deepest, budget); !fits) return fits.error();
+  if (auto stop = budget.poll()) return *stop;
+  Result<FarRefiner> made = make_refiner(mesh, crease_method);
   if (!made) return made.error();
-  Far::TopologyRefiner& refiner = **made;
   if (auto stop = budget.poll()) return *stop;
+  return FarMesh(std::make_unique<State>(State{&mesh, std::move(*made)}));
+}
 
-  Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(options.level));
-  // Without it Far leaves the last level's edges out, which limits and every question about vertices need.
-  uniform.fullTopologyInLastLevel = true;
-  refiner.RefineUniform(uniform);
-  if (auto stop = budget.poll()) return *stop;
+namespace {
 
+// The refiner has been refined to options.level.
+template <class Real>
+Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRefiner& refiner,
+                                  const RefineOptions& options, Poller& poller) {
   FarLevel<Real> result;
   result.level = options.level;
   result.base_points = static_cast<Index>(mesh.point_count());
-  take_topology(refiner, options.level, result);
-  auto control = converted<Real>(mesh.points, {"points"});
+  take_topology(refiner, options.level, result, poller);
+  auto control = converted<Real>(mesh.points, {"points"}, poller);
   if (!control) return control.error();
-  result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3);
-  if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result);
+  result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3, poller);
+  if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result, poller);
 
   int channel = 0;
   for (const Primvar& primvar : mesh.primvars) {
-    if (auto stop = budget.poll()) return *stop;
-    auto taken = take_primvar(refiner, options, primvar, channel, result);
+    poller.spend(1);
+    auto taken = take_primvar(refiner, options, primvar, channel, result, poller);
     if (!taken) return taken.error();
     result.primvars.push_back(std::move(*taken));
     if (primvar.interpolation == Interpolation::face_varying) ++channel;
   }
-  if (const std::string complaint = take_far_error(); !complaint.empty())
-    return Error{ErrorCode::unsupported, "OpenSubdiv could not refine this mesh: " + complaint, {}, 0, 0};
+  if (far_has_complained()) return far_refusal();
   return result;
+}
+
+}  // namespace
+
+template <class Real>
+Result<FarLevel<Real>> FarMesh::refine(const RefineOptions& options, const Budget& budget) {
+  if (auto stop = budget.poll()) return *stop;
+  Far::TopologyRefiner& refiner = *state_->refiner;
+  Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(options.level));
+  // Without it Far leaves the last level's edges out, which limits and every question about vertices need.
+  uniform.fullTopologyInLastLevel = true;
+  far_has_complained();  // forget what came before
+  refiner.RefineUniform(uniform);
+  auto result = stoppable([&] {
+    Poller poller(budget);
+    return take_level<Real>(*state_->mesh, refiner, options, poller);
+  });
+  refiner.Unrefine();  // its memory is needed for the comparison
+  return result;
+}
+
+template Result<FarLevel<float>> FarMesh::refine(const RefineOptions&, const Budget&);
+template Result<FarLevel<double>> FarMesh::refine(const RefineOptions&, const Budget&);
+
+template <class Real>
+Result<FarLevel<Real>> far_refine(const ControlMesh& mesh, const RefineOptions& options,
+                                  const Budget& budget) {
+  Result<FarMesh> built = FarMesh::build(mesh, options.crease_method, options.level, budget);
+  if (!built) return built.error();
+  return built->refine<Real>(options, budget);
 }
 
 template Result<FarLevel<float>> far_refine(const ControlMesh&, const RefineOptions&, const Budget&);

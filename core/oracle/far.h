@@ -1,9 +1,11 @@
 #pragma once
 // One uniformly refined level of a control mesh by OpenSubdiv's Far, as plain data. Includes no OpenSubdiv.
 
+#include <memory>
 #include <vector>
 
 #include "core/base/budget.h"
+#include "core/base/buffer.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
 #include "core/refine/refine.h"
@@ -29,9 +31,9 @@ struct FarVertex {
 
 template <class Real>
 struct FarPrimvar {
-  std::vector<Real> values;        // as RefinedPrimvar, per Far vertex, face or face-varying value
-  std::vector<Real> limit_values;  // vertex and face_varying, when asked for; not face_varying of level 0
-  std::vector<Index> indices;      // face_varying: one per face corner
+  Buffer<Real> values;        // as RefinedPrimvar, per Far vertex, face or face-varying value
+  Buffer<Real> limit_values;  // vertex and face_varying, when asked for; not face_varying of level 0
+  Buffer<Index> indices;      // face_varying: one per face corner
   // face_varying: per base face, set where Far tears a value (far_quirks.h); empty when it nowhere does.
   std::vector<unsigned char> torn_faces;
 };
@@ -39,31 +41,56 @@ struct FarPrimvar {
 template <class Real>
 struct FarLevel {
   Index level = 0;
-  Index base_points = 0;     // control points
-  std::vector<Real> points;  // x y z per vertex
-  std::vector<FarVertex> vertices;
-  std::vector<Index> faces;                  // 3 vertices per face, holes included
-  std::vector<GridPoint> corners;            // of every face corner: its place on the grid of the base face
-  std::vector<Index> base_faces;             // per face
-  std::vector<unsigned char> holes;          // per face
-  std::vector<FarPrimvar<Real>> primvars;    // in the order of ControlMesh::primvars
-  std::vector<Real> limit_points;            // with options.limit, tangents or normals: x y z per vertex
-  std::vector<Real> tangents_u, tangents_v;  // with options.tangents or normals; lengths are Far's own
+  Index base_points = 0;  // control points
+  Buffer<Real> points;    // x y z per vertex
+  Buffer<FarVertex> vertices;
+  Buffer<Index> faces;                     // 3 vertices per face, holes included
+  Buffer<GridPoint> corners;               // of every face corner: its place on the grid of the base face
+  Buffer<Index> base_faces;                // per face
+  Buffer<unsigned char> holes;             // per face
+  std::vector<FarPrimvar<Real>> primvars;  // in the order of ControlMesh::primvars
+  Buffer<Real> limit_points;               // with options.limit, tangents or normals: x y z per vertex
+  Buffer<Real> tangents_u, tangents_v;     // with options.tangents or normals; lengths are Far's own
 };
 
-// Whether far_refine<Real> would take this mesh to this level: out_of_range (level), unsupported (no faces),
-// too_large (counts that Far cannot number, or more working memory than budget.max_bytes: see far_bytes).
+// Whether Far would take this mesh to this level: out_of_range (level), unsupported (no faces, or a point of
+// more faces than Far can count), too_large (counts that Far cannot number, more working memory than
+// budget.max_bytes: see far_mesh_bytes, or a call of Far that would take too long: see far_cost.h). Linear in
+// the size of the control mesh; stops when the budget is polled dry.
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget);
-// Bytes that Far and FarLevel<double> take at their peak, roughly; measured, on the safe side.
-Count far_bytes(const ControlMesh& mesh, Index level);
+// Bytes that verify() takes at its peak for Far, FarLevel<double> and the comparison, with limits and
+// normals; our own refine() comes on top. Measured, on the safe side: README.md. Of any mesh, checked or not,
+// and at any level; no more than 2^63.
+Count far_mesh_bytes(const ControlMesh& mesh, Index level);
 // too_large when the levels of one refiner have more face corners together than an int counts, as Far does.
 Result<void> check_far_corners(Count corners);
 // too_large when verification takes more than budget.max_bytes.
 Result<void> check_far_bytes(Count bytes, const Budget& budget);
 
-// Refines to options.level (0..kMaxFarLevel) in one go. `mesh` must have passed check(): Far checks nothing.
-// Fails as check_far_size, with out_of_range for a number that Real cannot hold, with unsupported for what
-// Far refuses (a vertex of more than 65535 faces), or when the budget is polled dry.
+// A control mesh in Far, which is refined to one level after the other: Far looks for the neighbours once.
+class FarMesh {
+ public:
+  // `mesh` must outlive it and have passed check(): Far checks nothing. Fails as check_far_size for level
+  // `deepest`, with unsupported for what Far refuses all the same, and when the budget is polled dry.
+  static Result<FarMesh> build(const ControlMesh& mesh, CreaseMethod crease_method, Index deepest,
+                               const Budget& budget);
+  FarMesh(FarMesh&&) noexcept;
+  FarMesh& operator=(FarMesh&&) noexcept;
+  ~FarMesh();
+
+  // To options.level, at most `deepest`, in one go; other levels play no part. options.crease_method must be
+  // the one above. Fails with out_of_range for a number that Real cannot hold, with unsupported for what Far
+  // refuses, or when the budget is polled dry. Thrown std::bad_allocs pass through.
+  template <class Real>
+  Result<FarLevel<Real>> refine(const RefineOptions& options, const Budget& budget);
+
+ private:
+  struct State;
+  explicit FarMesh(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+// Both in one.
 template <class Real>
 Result<FarLevel<Real>> far_refine(const ControlMesh& mesh, const RefineOptions& options,
                                   const Budget& budget);

@@ -1,7 +1,11 @@
 #include "core/oracle/far_curves.h"
 
+#include <algorithm>
+
 #include "core/curves/subdivision.h"
 #include "core/oracle/far.h"
+#include "core/oracle/far_cost.h"
+#include "core/oracle/poller.h"
 #include "core/refine/split.h"
 
 //     B0 --- B1 --- B2 --- B3        The border A0 A1 A2 … of a strip of triangles follows the curve's rules
@@ -16,11 +20,13 @@ Index segments_of(const FarCurves& curves, std::size_t curve) {
   return curves.counts[curve] - (curves.closed ? 0 : 1);
 }
 
-void append_strip(const FarCurves& curves, std::size_t curve, Index first_point, ControlMesh& mesh) {
+void append_strip(const FarCurves& curves, std::size_t curve, Index first_point, ControlMesh& mesh,
+                  Poller& poller) {
   const Index n = curves.counts[curve];
   const Index a = 2 * first_point, b = a + n;
   for (Index s = 0; s < segments_of(curves, curve); ++s) {
     const Index t = (s + 1) % n;
+    poller.spend(8 + 2 * curves.width);
     mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(),
                                     {a + s, a + t, b + s, b + s, a + t, b + t});
   }
@@ -34,16 +40,18 @@ void append_strip(const FarCurves& curves, std::size_t curve, Index first_point,
     carried.values.insert(carried.values.end(), begin, begin + std::ptrdiff_t{n} * curves.width);
 }
 
-ControlMesh strips(const FarCurves& curves) {
+ControlMesh strips(const FarCurves& curves, Poller& poller) {
   ControlMesh mesh;
   mesh.points.resize(curves.points.size() / curves.width * 2 * 3);
   mesh.primvars.resize(1);
+  mesh.face_vertex_indices.reserve(mesh.points.size());
+  mesh.primvars[0].values.reserve(2 * curves.points.size());
   mesh.primvars[0].name = "curve";
   mesh.primvars[0].interpolation = Interpolation::vertex;
   mesh.primvars[0].element_size = curves.width;
   Index first = 0;
   for (std::size_t c = 0; c < curves.counts.size(); ++c) {
-    append_strip(curves, c, first, mesh);
+    append_strip(curves, c, first, mesh, poller);
     first += curves.counts[c];
   }
   return mesh;
@@ -59,19 +67,37 @@ Count far_curve_bytes(const ControlCurves& curves, Index level) {
   return points * 4 * (400 + Count{2} * curves.width * sizeof(double));
 }
 
+Result<void> check_far_curves(const ControlCurves& curves, Index level, const Budget& budget) {
+  if (auto fits = check_far_bytes(far_curve_bytes(curves, level), budget); !fits) return fits;
+  FarLoad step;  // the strips of the level before
+  for (Count c = 0; c < curves.curve_count(); ++c) {
+    const Count points =
+        refined_point_count(curves.wrap, curves.points_of_curve(c), level == 0 ? 0 : level - 1);
+    step.points += 2 * points;
+    step.edges += 4 * points;
+    step.faces += 2 * points;
+  }
+  return check_far_time(step, std::min<Index>(1, level));
+}
+
 FarCurves far_control(const ControlCurves& curves) {
-  FarCurves far{curves.wrap == CurveWrap::periodic, curves.width, {}, curves.points, {}};
+  FarCurves far{curves.wrap == CurveWrap::periodic, curves.width, {}, {}, {}};
+  far.points.assign(curves.points.begin(), curves.points.end());
   for (Count c = 0; c < curves.curve_count(); ++c)
     far.counts.push_back(static_cast<Index>(curves.points_of_curve(c)));
   return far;
 }
 
+namespace {
+
 template <class Real>
-Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool limit, const Budget& budget) {
+Result<FarCurves> refine_strips(const FarCurves& from, Index level, bool limit, const Budget& budget,
+                                Poller& poller) {
   RefineOptions options;
   options.level = level;
   options.limit = limit;
-  const auto far = far_refine<Real>(strips(from), options, budget);
+  const ControlMesh mesh = strips(from, poller);
+  const auto far = far_refine<Real>(mesh, options, budget);
   if (!far) return far.error();
 
   FarCurves to{from.closed, from.width, {}, {}, {}};
@@ -86,6 +112,7 @@ Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool lim
     const Index segments_here = segments_of(from, c);
     const Index count = segments_here * n + (from.closed ? 0 : 1);
     to.counts.push_back(count);
+    poller.spend(1 + 2 * segments_here);
     for (Index s = 0; s < segments_here; ++s) of_face.insert(of_face.end(), 2, {first, count, Count{s} * n});
     first += count;
   }
@@ -93,11 +120,13 @@ Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool lim
   to.points.assign(first * width, 0);
   if (limit) to.limits.assign(first * width, 0);
   for (std::size_t corner = 0; corner < far->faces.size(); ++corner) {
+    poller.spend(2);
     const Index face = far->base_faces[corner / 3];
     const GridPoint place = far->corners[corner];
     if (face % 2 != 0 || place.j != 0) continue;  // A_s A_{s+1} is edge 0 of every even face
     const Segment& segment = of_face[face];
     const Count point = segment.first + (segment.begin + place.i) % segment.count;
+    poller.spend(2 * width);
     for (std::size_t k = 0; k < width; ++k) {
       const std::size_t source = std::size_t{far->faces[corner]} * width + k;
       to.points[point * width + k] = double{far->primvars[0].values[source]};
@@ -105,6 +134,16 @@ Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool lim
     }
   }
   return to;
+}
+
+}  // namespace
+
+template <class Real>
+Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool limit, const Budget& budget) {
+  return stoppable([&] {
+    Poller poller(budget);
+    return refine_strips<Real>(from, level, limit, budget, poller);
+  });
 }
 
 template Result<FarCurves> far_refine_curves<float>(const FarCurves&, Index, bool, const Budget&);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/budget.h"
+#include "core/base/buffer.h"
 #include "core/base/result.h"
 #include "core/curves/control_curve.h"
 
@@ -13,13 +14,17 @@ namespace subdivd::oracle {
 struct FarCurves {
   bool closed = false;
   Index width = 3;
-  std::vector<Index> counts;   // points per curve
-  std::vector<double> points;  // every float is a double: nothing is lost on the way into the next level
-  std::vector<double> limits;  // per point
+  std::vector<Index> counts;  // points per curve
+  Buffer<double> points;      // every float is a double: nothing is lost on the way into the next level
+  Buffer<double> limits;      // per point
 };
 
 // Bytes that far_refine_curves takes on the way to `level` (at most kMaxCurveLevel), roughly.
 Count far_curve_bytes(const ControlCurves& curves, Index level);
+
+// Whether Far would take the last step to `level` (at most kMaxCurveLevel): too_large for more working memory
+// than budget.max_bytes (far_curve_bytes), or for a call of Far that would take too long (far_cost.h).
+Result<void> check_far_curves(const ControlCurves& curves, Index level, const Budget& budget);
 
 // Nonperiodic curves become pinned ones: they are the inner part of those.
 FarCurves far_control(const ControlCurves& curves);

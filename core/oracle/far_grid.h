@@ -1,20 +1,20 @@
 #pragma once
 // The place of every refined face corner on its base face, followed through Far's parent relations alone.
 
-#include <vector>
-
+#include "core/base/buffer.h"
 #include "core/oracle/far_refiner.h"
+#include "core/oracle/poller.h"
 #include "core/refine/split.h"
 
 namespace subdivd::oracle {
 
 // Per face of a level: its base face, and where each of its three corners lies on that face's grid.
 struct FarGrid {
-  std::vector<GridPoint> corners;
-  std::vector<Index> base_faces;
+  Buffer<GridPoint> corners;
+  Buffer<Index> base_faces;
 };
 
-// Of level `depth` of a refiner that has been refined that far.
-FarGrid grid_of(const OpenSubdiv::Far::TopologyRefiner& refiner, Index depth);
+// Of level `depth` of a refiner that has been refined that far. Throws Stopped.
+FarGrid grid_of(const OpenSubdiv::Far::TopologyRefiner& refiner, Index depth, Poller& poller);
 
 }  // namespace subdivd::oracle

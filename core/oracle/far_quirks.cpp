@@ -1,7 +1,5 @@
 #include "core/oracle/far_quirks.h"
 
-#include <algorithm>
-
 namespace subdivd::oracle {
 namespace {
 
@@ -17,24 +15,28 @@ std::vector<Far::Index> values_around(const Far::TopologyLevel& base, int vertex
   return values;
 }
 
-// Far's own search, as it stands: with two values known, every value but the first is taken for new.
+// Far's own search, as it stands: with two values known, every value but the first is taken for new. With
+// three known it looks at all of them.
 bool takes_a_known_value_for_new(const std::vector<Far::Index>& values) {
-  std::vector<Far::Index> known(values.begin(), values.begin() + (values.empty() ? 0 : 1));
+  std::size_t known = 1;
+  Far::Index second = 0;
   for (std::size_t k = 1; k < values.size(); ++k) {
-    if (values[k] == values[k - 1]) continue;
-    const bool is_known = std::find(known.begin(), known.end(), values[k]) != known.end();
-    if (known.size() == 2 && values[k] == known[1]) return true;
-    if (!is_known) known.push_back(values[k]);
+    if (values[k] == values[k - 1] || values[k] == values[0]) continue;
+    if (known == 2) return values[k] == second;
+    second = values[k];
+    ++known;
   }
   return false;
 }
 
 }  // namespace
 
-std::vector<unsigned char> faces_at_torn_values(const Far::TopologyRefiner& refiner, int channel) {
+std::vector<unsigned char> faces_at_torn_values(const Far::TopologyRefiner& refiner, int channel,
+                                                Poller& poller) {
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   std::vector<unsigned char> flags;
   for (int vertex = 0; vertex < base.GetNumVertices(); ++vertex) {
+    poller.spend(4 + static_cast<Count>(base.GetVertexFaces(vertex).size()));
     if (!takes_a_known_value_for_new(values_around(base, vertex, channel))) continue;
     flags.resize(static_cast<std::size_t>(base.GetNumFaces()), 0);
     const Far::ConstIndexArray faces = base.GetVertexFaces(vertex);

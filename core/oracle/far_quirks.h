@@ -6,6 +6,7 @@
 
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far_refiner.h"
+#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
@@ -13,6 +14,8 @@ namespace subdivd::oracle {
 // value (its search for known values looks at the first one only, FVarLevel::completeTopologyFromFaceValues),
 // and so treats B and B' as smooth borders where both values should be corners. Returns one flag per base
 // face: set for the faces around such a point, all that its values reach. Empty when there is none.
-std::vector<unsigned char> faces_at_torn_values(const OpenSubdiv::Far::TopologyRefiner& refiner, int channel);
+// Throws Stopped.
+std::vector<unsigned char> faces_at_torn_values(const OpenSubdiv::Far::TopologyRefiner& refiner, int channel,
+                                                Poller& poller);
 
 }  // namespace subdivd::oracle

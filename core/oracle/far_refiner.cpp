@@ -4,6 +4,7 @@
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <numeric>
+#include <utility>
 
 namespace subdivd::oracle {
 namespace {
@@ -11,16 +12,18 @@ namespace {
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
-thread_local std::string far_error;  // the callbacks know no other way to tell whose call failed
+// The callbacks know no other way to tell whose call failed. They may be called without a text (null), and
+// from within Far, which no exception may leave by this way: so nothing is allocated here.
+thread_local bool complained = false;
 
-void remember_error(Far::ErrorType, const char* message) { far_error = message; }
-void remember_warning(const char* message) { far_error = message; }
+void note_error(Far::ErrorType, const char*) { complained = true; }
+void note_warning(const char*) { complained = true; }
 
 // Setting the callbacks is not thread-safe in Far; the initialisation of a static is.
 void install_callbacks() {
   [[maybe_unused]] static const bool installed = [] {
-    Far::SetErrorCallback(remember_error);
-    Far::SetWarningCallback(remember_warning);
+    Far::SetErrorCallback(note_error);
+    Far::SetWarningCallback(note_warning);
     return true;
   }();
 }
@@ -57,7 +60,15 @@ Sdc::Options::FVarLinearInterpolation far_linear(FaceVaryingInterpolation mode) 
 
 std::vector<int> as_ints(const std::vector<Index>& indices) { return {indices.begin(), indices.end()}; }
 
-// Crease polylines as edges, in the order given: Far, too, keeps the last sharpness of an edge.
+// How many corners every point has: near enough to the number of its edges.
+std::vector<Index> corner_counts(const ControlMesh& mesh) {
+  std::vector<Index> counts(mesh.point_count(), 0);
+  for (const Index v : mesh.face_vertex_indices) ++counts[v];
+  return counts;
+}
+
+// Crease polylines as edges, in the order given: Far, too, keeps the last sharpness of an edge. It looks for
+// them among the edges of the end that is named first: that is the one with fewer.
 struct CreaseEdges {
   std::vector<int> ends;  // two per edge
   std::vector<float> sharpnesses;
@@ -65,12 +76,16 @@ struct CreaseEdges {
 
 CreaseEdges crease_edges(const ControlMesh& mesh) {
   CreaseEdges edges;
+  if (mesh.crease_lengths.empty()) return edges;
+  const std::vector<Index> corners = corner_counts(mesh);
   const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
   Count point = 0, edge = 0;
   for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
     for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
-      edges.ends.push_back(static_cast<int>(mesh.crease_indices[point]));
-      edges.ends.push_back(static_cast<int>(mesh.crease_indices[point + 1]));
+      const Index a = mesh.crease_indices[point], b = mesh.crease_indices[point + 1];
+      const bool a_first = corners[a] <= corners[b];
+      edges.ends.push_back(static_cast<int>(a_first ? a : b));
+      edges.ends.push_back(static_cast<int>(a_first ? b : a));
       edges.sharpnesses.push_back(mesh.crease_sharpnesses[per_crease ? crease : edge]);
     }
   return edges;
@@ -80,7 +95,15 @@ int size_of(const auto& container) { return static_cast<int>(container.size()); 
 
 }  // namespace
 
-std::string take_far_error() { return std::exchange(far_error, {}); }
+bool far_has_complained() { return std::exchange(complained, false); }
+
+Error far_refusal() {
+  return {ErrorCode::unsupported,
+          "OpenSubdiv refuses this topology; it can be refined here, but not verified",
+          {},
+          0,
+          0};
+}
 
 std::vector<int> corner_values(const Primvar& primvar, Count corners) {
   if (!primvar.indices.empty()) return as_ints(primvar.indices);
@@ -93,11 +116,9 @@ Result<FarRefiner> create_refiner(const Far::TopologyDescriptor& topology, Sdc::
                                   Sdc::Options rules) {
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   install_callbacks();
-  take_far_error();
+  far_has_complained();  // forget what came before
   FarRefiner refiner(Factory::Create(topology, Factory::Options(scheme, rules)));
-  const std::string complaint = take_far_error();
-  if (refiner == nullptr || !complaint.empty())
-    return Error{ErrorCode::unsupported, "OpenSubdiv does not take this mesh: " + complaint, {}, 0, 0};
+  if (refiner == nullptr || far_has_complained()) return far_refusal();
   return refiner;
 }
 

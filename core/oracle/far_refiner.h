@@ -6,7 +6,6 @@
 #include <opensubdiv/far/topologyRefiner.h>
 
 #include <memory>
-#include <string>
 
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
@@ -18,13 +17,17 @@ using FarRefiner = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 // Not yet refined. Face-varying channels stand in the order of the face-varying primvars.
 Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method);
 
-// Of any topology; unsupported, in Far's own words, when Far complains.
+// Of any topology; unsupported when Far complains.
 Result<FarRefiner> create_refiner(const OpenSubdiv::Far::TopologyDescriptor& topology,
                                   OpenSubdiv::Sdc::SchemeType scheme, OpenSubdiv::Sdc::Options rules);
 
-// Far reports through two process-wide callbacks. Ours keep the last message per thread, and print nothing.
-// take_far_error returns what Far said on this thread since the last call; empty when nothing.
-std::string take_far_error();
+// Far reports through two process-wide callbacks and would print to the standard output without them. Ours
+// note that there was something, thread by thread, and drop the text: it is not made for those who read our
+// answers. far_has_complained tells whether Far did on this thread since the last call.
+bool far_has_complained();
+
+// What a complaint comes to on the wire.
+Error far_refusal();
 
 // Index of every face corner's value.
 std::vector<int> corner_values(const Primvar& primvar, Count corners);

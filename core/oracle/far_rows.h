@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <span>
 
+#include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
-// Rows of `width` scalars, as Far's templates want to see them. Refers to `values`.
+// Rows of `width` scalars, as Far's templates want to see them. Refers to `values`. Every row that Far asks
+// for counts as its width in steps, so that Far's loops stop when the budget says so.
 template <class Real>
 class Rows {
  public:
-  Rows(std::vector<Real>& values, Index width) : data_(values.data()), width_(width) {}
+  Rows(Buffer<Real>& values, Index width, Poller& poller)
+      : data_(values.data()), width_(width), poller_(&poller) {}
 
   class Row {
    public:
@@ -32,18 +36,23 @@ class Rows {
     Index width_;
   };
 
-  Row operator[](int i) const { return {data_ + static_cast<std::size_t>(i) * width_, width_}; }
+  Row operator[](int i) const {
+    poller_->spend(width_);
+    return {data_ + static_cast<std::size_t>(i) * width_, width_};
+  }
 
  private:
   Real* data_;
   Index width_;
+  Poller* poller_;
 };
 
 // The values in Real; out_of_range at `where` when one does not fit.
 template <class Real>
-Result<std::vector<Real>> converted(const std::vector<double>& values, Path where) {
-  std::vector<Real> result(values.size());
+Result<Buffer<Real>> converted(std::span<const double> values, Path where, Poller& poller) {
+  Buffer<Real> result(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
+    poller.spend(1);
     if (std::abs(values[k]) > static_cast<double>(std::numeric_limits<Real>::max()))
       return Error{ErrorCode::out_of_range, "a number is too large for single precision", std::move(where), 0,
                    0};

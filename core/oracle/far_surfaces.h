@@ -2,9 +2,8 @@
 // Bicubic B-spline surfaces in Far: Catmull-Clark on a grid of quads, which away from extraordinary vertices
 // is the bicubic B-spline [CatmullClark78]. Includes no OpenSubdiv.
 
-#include <vector>
-
 #include "core/base/budget.h"
+#include "core/base/buffer.h"
 #include "core/base/result.h"
 #include "core/surfaces/patch.h"
 
@@ -23,13 +22,13 @@ struct FarDirection {
 struct FarSurface {
   FarDirection u, v;
   Index width = 3;
-  std::vector<double> points;  // every float is a double: nothing is lost on the way into the next level
-  std::vector<double> limits;  // width per point
+  Buffer<double> points;  // every float is a double: nothing is lost on the way into the next level
+  Buffer<double> limits;  // width per point
   // 3 per point. They span the tangent plane, turned as du and dv are, and have the length of derivatives by
   // parameters that count this level's points.
-  std::vector<double> u_tangents, v_tangents;
+  Buffer<double> u_tangents, v_tangents;
   // Far's own faces as points of the grid, 4 per quad, in Far's order; of the level that Far has refined.
-  std::vector<Index> quads;
+  Buffer<Index> quads;
 };
 
 struct FarSurfaceOptions {

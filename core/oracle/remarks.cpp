@@ -8,7 +8,8 @@ void remark_exceptions(const std::vector<LevelReport>& levels, std::vector<std::
   for (const LevelReport& level : levels)
     for (const Deviation& deviation : level.deviations) {
       if (deviation.exception.empty()) continue;
-      const std::string remark = deviation.quantity + ": left out: " + deviation.exception;
+      const char* how_many = deviation.compared > 0 ? ": left out: " : ": left out, all of them: ";
+      const std::string remark = deviation.quantity + how_many + deviation.exception;
       if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
     }
 }

@@ -11,7 +11,7 @@ namespace subdivd::oracle {
 // One remark for every reason for which something was left out, however many levels name it.
 void remark_exceptions(const std::vector<LevelReport>& levels, std::vector<std::string>& remarks);
 
-// `what`: "mesh", "surface". `remoteness`: PointScale's; says nothing when it is 1.
+// `what`: "mesh", "curve", "surface". `remoteness`: PointScale's; says nothing when it is 1.
 void remark_remoteness(const std::string& what, double remoteness, std::vector<std::string>& remarks);
 
 }  // namespace subdivd::oracle

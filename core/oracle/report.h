@@ -9,6 +9,17 @@
 
 namespace subdivd::oracle {
 
+// What a comparison came to. No bool, and not convertible to one: where nothing was compared, nothing has
+// passed, and no caller may take it for that.
+enum class Verdict {
+  passed,            // everything that was asked for was compared, and agrees
+  failed,            // something disagrees, whatever else was or was not compared
+  nothing_compared,  // nothing disagrees, but of something that was asked for no single value was compared
+};
+
+// Of two parts together: failed wins over nothing_compared, that over passed.
+Verdict both(Verdict a, Verdict b);
+
 // Deviations of one quantity at one level. `relative` divides by the diagonal of the control points' bounding
 // box (positions, limits) or by the largest magnitude among the channel's control values (primvars, 1 when
 // all are 0); normals are angles in degrees, absolute and relative being the same.
@@ -20,7 +31,7 @@ struct Deviation {
   Count compared = 0;     // number of values compared
   Count excepted = 0;     // values left out for a documented reason, named in `exception`
   std::string exception;  // e.g. "corners of several faces have no common tangent plane"; empty when none
-  bool within_tolerance = true;
+  Verdict verdict = Verdict::nothing_compared;  // max_relative against the tolerance
   // Where the worst value is; kNoIndex when nothing was compared.
   Index worst_vertex = kNoIndex, worst_face = kNoIndex;
   double worst_u = 0, worst_v = 0;
@@ -32,27 +43,35 @@ struct LevelReport {
   Count vertices = 0, triangles = 0;
   Count quads = 0;  // of surfaces, which have no triangles
   std::vector<Deviation> deviations;
+
+  // failed, too, when the connectivity differs; nothing_compared without deviations.
+  Verdict verdict() const;
 };
+
+// Of consecutive levels, the last of which is the one that was asked for: failed when any of them has failed,
+// otherwise the last one's. What could not be compared on the way there (limits while semi-sharpness lasts)
+// is no loss when it could be in the end. nothing_compared without levels.
+Verdict verdict_of(const std::vector<LevelReport>& levels);
 
 struct MeshReport {
   std::string name;
-  std::string precision;             // "single" or "double"
-  std::vector<LevelReport> levels;   // 1..level
-  bool passed = false;               // connectivity identical and every deviation within tolerance
-  std::vector<std::string> remarks;  // what could not be compared and why
+  std::string precision;                        // "single" or "double"
+  std::vector<LevelReport> levels;              // 1..level
+  Verdict verdict = Verdict::nothing_compared;  // of the levels
+  std::vector<std::string> remarks;             // what could not be compared and why
 };
 
 struct CurveReport {
   std::string name, precision;
   std::vector<LevelReport> levels;  // quantity "points" and "limitPoints"
-  bool passed = false;
+  Verdict verdict = Verdict::nothing_compared;
   std::vector<std::string> remarks;  // e.g. "periodic curves: compared as a closed border"
 };
 
 struct SurfaceReport {
   std::string name, precision;
   std::vector<LevelReport> levels;  // quantity "points", "limitPoints" and "normals"
-  bool passed = false;
+  Verdict verdict = Verdict::nothing_compared;
   std::vector<std::string> remarks;  // e.g. "u is periodic: compared on a grid that closes in that direction"
 };
 
@@ -61,7 +80,9 @@ struct Report {
   std::vector<MeshReport> meshes;
   std::vector<CurveReport> curves;
   std::vector<SurfaceReport> surfaces;
-  bool passed = false;
+
+  // Of all meshes, curves and surfaces; nothing_compared without any.
+  Verdict verdict() const;
 };
 
 }  // namespace subdivd::oracle

@@ -1,10 +1,11 @@
 #pragma once
-// What deviations are measured by, and how large they may be.
+// What deviations are measured by, and how large they may be. What takes a Poller throws Stopped.
 
 #include <span>
 
 #include "core/base/index.h"
 #include "core/mesh/control_mesh.h"
+#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
@@ -16,11 +17,11 @@ struct PointScale {
   double remoteness = 1;
 };
 // `points`: width scalars each.
-PointScale point_scale(std::span<const double> points, Index width);
+PointScale point_scale(std::span<const double> points, Index width, Poller& poller);
 
 // Sharpness is single precision in Far and here, and three or more semi-sharp edges at one point are added up
 // in an order that is each side's own: the blended weights may differ in their eighth digit.
-bool sharpness_rounds(const ControlMesh& mesh);
+bool sharpness_rounds(const ControlMesh& mesh, Poller& poller);
 inline constexpr double kSharpnessRounding = 1e-7;  // tolerance of values, relative, where it does
 
 // Tolerances of max_relative in the precision of Real.

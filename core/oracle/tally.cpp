@@ -45,7 +45,8 @@ Deviation Tally::finish() const {
     result.rms_relative = capped(std::sqrt(sum_of_squares_ / static_cast<double>(result.compared)));
   result.max_absolute = capped(result.max_relative * scale_);
   result.rms_absolute = capped(result.rms_relative * scale_);
-  result.within_tolerance = result.max_relative <= result.tolerance;
+  if (result.compared > 0)
+    result.verdict = result.max_relative <= result.tolerance ? Verdict::passed : Verdict::failed;
   return result;
 }
 

@@ -5,16 +5,43 @@
 #include <algorithm>
 
 #include "core/oracle/compare.h"
+#include "core/oracle/poller.h"
 #include "core/oracle/remarks.h"
 
 namespace subdivd::oracle {
 namespace {
 
-void remark_sharpness(const ControlMesh& mesh, MeshReport& report) {
-  if (sharpness_rounds(mesh))
+void remark_sharpness(const ControlMesh& mesh, MeshReport& report, Poller& poller) {
+  if (sharpness_rounds(mesh, poller))
     report.remarks.push_back(
         "three or more semi-sharp edges meet: sharpness is single precision and its sums "
         "round by their order, so the tolerance of values is at least 1e-7");
+}
+
+template <class Real>
+Result<MeshReport> compare_levels(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget,
+                                  Poller& poller) {
+  auto far_mesh = FarMesh::build(mesh, options.crease_method, options.level, budget);
+  if (!far_mesh) return far_mesh.error();
+  MeshReport report;
+  report.name = mesh.name;
+  report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
+  for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
+    RefineOptions step = options;
+    step.level = level;
+    step.tangents = false;
+    step.connectivity = step.provenance = true;  // what is matched
+    const auto far = far_mesh->refine<Real>(step, budget);
+    if (!far) return far.error();
+    const auto ours = refine<Real>(mesh, step, budget);
+    if (!ours) return ours.error();
+    report.levels.push_back(compare(mesh, *ours, *far, poller));
+  }
+  remark_exceptions(report.levels, report.remarks);
+  remark_sharpness(mesh, report, poller);
+  remark_remoteness("mesh", point_scale(mesh.points, 3, poller).remoteness, report.remarks);
+  report.verdict = verdict_of(report.levels);
+  return report;
 }
 
 }  // namespace
@@ -33,27 +60,10 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
                  {},
                  0,
                  0};
-  if (auto fits = check_far_size(mesh, options.level, budget); !fits) return fits.error();
-  MeshReport report;
-  report.name = mesh.name;
-  report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
-  report.passed = true;
-  for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
-    RefineOptions step = options;
-    step.level = level;
-    step.tangents = false;
-    step.connectivity = step.provenance = true;  // what is matched
-    const auto far = far_refine<Real>(mesh, step, budget);
-    if (!far) return far.error();
-    const auto ours = refine<Real>(mesh, step, budget);
-    if (!ours) return ours.error();
-    report.levels.push_back(compare(mesh, *ours, *far));
-    report.passed = report.passed && passed(report.levels.back());
-  }
-  remark_exceptions(report.levels, report.remarks);
-  remark_sharpness(mesh, report);
-  remark_remoteness("mesh", point_scale(mesh.points, 3).remoteness, report.remarks);
-  return report;
+  return stoppable([&] {
+    Poller poller(budget);
+    return compare_levels<Real>(mesh, options, budget, poller);
+  });
 }
 
 template Result<MeshReport> verify<float>(const ControlMesh&, const RefineOptions&, const Budget&);

@@ -29,6 +29,10 @@ std::string oracle_name();
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);
 
+// Bytes of the report, of the tree that proto makes of it, and of its text together; on the safe side.
+// Beside far_mesh_bytes (far.h).
+Count report_bytes(const ControlMesh& mesh, Index level);
+
 // A pinned or periodic cubic curve is the border of a strip (ring) of triangles in Far, any width; a
 // nonperiodic one is the inner part of such a border. Far refines its own points level by level, one level at
 // a time. In deviations worst_vertex is the refined point, worst_face the curve, worst_u its parameter t.

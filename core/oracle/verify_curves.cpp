@@ -2,6 +2,8 @@
 
 #include "core/oracle/compare.h"
 #include "core/oracle/far_curves.h"
+#include "core/oracle/poller.h"
+#include "core/oracle/remarks.h"
 #include "core/oracle/verify.h"
 
 namespace subdivd::oracle {
@@ -19,6 +21,33 @@ std::string remark(CurveWrap wrap) {
   return "pinned curves: compared as the border of a strip of triangles with sharp corners";
 }
 
+template <class Real>
+Result<CurveReport> compare_levels(const ControlCurves& curves, const CurveOptions& options,
+                                   const Budget& budget, Poller& poller) {
+  CurveReport report;
+  report.name = curves.name;
+  report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
+  report.remarks.push_back(remark(curves.wrap));
+  const PointScale scale = point_scale(curves.points, curves.width, poller);
+
+  FarCurves far = far_control(curves);
+  for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
+    CurveOptions step = options;
+    step.level = level;
+    step.tangents = false;
+    const auto ours = refine<Real>(curves, step, budget);
+    if (!ours) return ours.error();
+    auto next = far_refine_curves<Real>(far, std::min<Index>(1, level), options.limit, budget);
+    if (!next) return next.error();
+    far = std::move(*next);
+    report.levels.push_back(compare(*ours, far, scale, poller));
+  }
+  remark_exceptions(report.levels, report.remarks);
+  remark_remoteness("curve", scale.remoteness, report.remarks);
+  report.verdict = verdict_of(report.levels);
+  return report;
+}
+
 }  // namespace
 
 template <class Real>
@@ -31,28 +60,11 @@ Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& opti
         0,
         0};
   if (const auto sizes = predict_bytes<Real>(curves, options); !sizes) return sizes.error();
-  if (auto fits = check_far_bytes(far_curve_bytes(curves, options.level), budget); !fits) return fits.error();
-  CurveReport report;
-  report.name = curves.name;
-  report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
-  report.remarks.push_back(remark(curves.wrap));
-  report.passed = true;
-  const PointScale scale = point_scale(curves.points, curves.width);
-
-  FarCurves far = far_control(curves);
-  for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
-    CurveOptions step = options;
-    step.level = level;
-    step.tangents = false;
-    const auto ours = refine<Real>(curves, step, budget);
-    if (!ours) return ours.error();
-    auto next = far_refine_curves<Real>(far, std::min<Index>(1, level), options.limit, budget);
-    if (!next) return next.error();
-    far = std::move(*next);
-    report.levels.push_back(compare(*ours, far, scale));
-    report.passed = report.passed && passed(report.levels.back());
-  }
-  return report;
+  if (auto fits = check_far_curves(curves, options.level, budget); !fits) return fits.error();
+  return stoppable([&] {
+    Poller poller(budget);
+    return compare_levels<Real>(curves, options, budget, poller);
+  });
 }
 
 template Result<CurveReport> verify<float>(const ControlCurves&, const CurveOptions&, const Budget&);

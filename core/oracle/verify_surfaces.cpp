@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include "core/oracle/compare.h"
+#include "core/oracle/far_cost.h"
 #include "core/oracle/far_surfaces.h"
+#include "core/oracle/poller.h"
 #include "core/oracle/remarks.h"
 #include "core/oracle/verify.h"
 
@@ -46,19 +48,17 @@ Result<void> check_surface(const ControlPatch& patch, const PatchOptions& option
   const auto bytes = predict_bytes<Real>(patch, compared(options, options.level));
   if (!bytes) return bytes.error();
   if (auto fits = check_far_corners(far_surface_corners(patch, options.level)); !fits) return fits;
+  if (auto fits = check_far_grid_time(far_surface_corners(patch, options.level) / 4); !fits) return fits;
   return check_far_bytes(*bytes + far_surface_bytes(patch, options.level), budget);
 }
 
-}  // namespace
-
 template <class Real>
-Result<SurfaceReport> verify(const ControlPatch& patch, const PatchOptions& options, const Budget& budget) {
-  if (auto fits = check_surface<Real>(patch, options, budget); !fits) return fits.error();
+Result<SurfaceReport> compare_levels(const ControlPatch& patch, const PatchOptions& options,
+                                     const Budget& budget, Poller& poller) {
   SurfaceReport report;
   report.name = patch.name;
   report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
   report.remarks = {remark("u", patch.u_wrap), remark("v", patch.v_wrap)};
-  report.passed = true;
 
   FarSurface far = far_control(patch);
   for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
@@ -68,13 +68,23 @@ Result<SurfaceReport> verify(const ControlPatch& patch, const PatchOptions& opti
     auto next = far_refine_surface<Real>(far, step, budget);
     if (!next) return next.error();
     far = std::move(*next);
-    report.levels.push_back(compare(patch, *ours, far));
-    report.passed = report.passed && passed(report.levels.back());
-    if (auto stop = budget.poll()) return *stop;
+    report.levels.push_back(compare(patch, *ours, far, poller));
   }
   remark_exceptions(report.levels, report.remarks);
-  remark_remoteness("surface", point_scale(patch.points, patch.width).remoteness, report.remarks);
+  remark_remoteness("surface", point_scale(patch.points, patch.width, poller).remoteness, report.remarks);
+  report.verdict = verdict_of(report.levels);
   return report;
+}
+
+}  // namespace
+
+template <class Real>
+Result<SurfaceReport> verify(const ControlPatch& patch, const PatchOptions& options, const Budget& budget) {
+  if (auto fits = check_surface<Real>(patch, options, budget); !fits) return fits.error();
+  return stoppable([&] {
+    Poller poller(budget);
+    return compare_levels<Real>(patch, options, budget, poller);
+  });
 }
 
 template Result<SurfaceReport> verify<float>(const ControlPatch&, const PatchOptions&, const Budget&);

@@ -13,6 +13,12 @@ std::string dumped(const Json& json) { return json.dump(-1, ' ', false, Json::er
 // JSON has no infinity and no NaN: null stands for both.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+// null: of something that was asked for nothing could be compared.
+Json verdict(oracle::Verdict verdict) {
+  if (verdict == oracle::Verdict::nothing_compared) return nullptr;
+  return verdict == oracle::Verdict::passed;
+}
+
 // `faces`: the face of the input of every face that was compared; empty: the same.
 Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
   Json json;
@@ -29,7 +35,7 @@ Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) 
 
 Json deviation_json(const oracle::Deviation& deviation, const std::vector<Index>& faces) {
   Json json = {{"quantity", deviation.quantity},
-               {"withinTolerance", deviation.within_tolerance},
+               {"withinTolerance", verdict(deviation.verdict)},
                {"tolerance", number(deviation.tolerance)},
                {"maxRelative", number(deviation.max_relative)},
                {"rmsRelative", number(deviation.rms_relative)},
@@ -50,7 +56,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
   Json json;
   if (!one.name.empty()) json["name"] = one.name;
   json["precision"] = one.precision;
-  json["passed"] = one.passed;
+  json["passed"] = verdict(one.verdict);
   json["levels"] = Json::array();
   for (const oracle::LevelReport& level : one.levels) {
     Json deviations = Json::array();
@@ -58,6 +64,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
       deviations.push_back(deviation_json(deviation, faces));
     json["levels"].push_back(
         {{"level", level.level},
+         {"passed", verdict(level.verdict())},
          {"connectivityIdentical", level.connectivity_identical},
          {"vertices", level.vertices},
          {level.quads > 0 ? "quads" : "triangles", level.quads > 0 ? level.quads : level.triangles},
@@ -71,7 +78,7 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
 
 // Part by part: as one tree many meshes would take ten times their text.
 std::string report(const oracle::Report& report, const RefineRequest* request) {
-  Json head = {{"oracle", report.oracle}, {"passed", report.passed}};
+  Json head = {{"oracle", report.oracle}, {"passed", verdict(report.verdict())}};
   std::string text = dumped(head);
   text.pop_back();
   static const std::vector<Index> kSame;

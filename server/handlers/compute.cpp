@@ -1,6 +1,5 @@
 #include "server/handlers/compute.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/curves/subdivision.h"
@@ -56,10 +55,6 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
     if (!verified) return proto::blame_input(request, std::move(verified).error(), "surfaces", i);
     report.surfaces.push_back(std::move(verified).value());
   }
-  const auto passed = [](const auto& part) { return part.passed; };
-  report.passed = std::all_of(report.meshes.begin(), report.meshes.end(), passed) &&
-                  std::all_of(report.curves.begin(), report.curves.end(), passed) &&
-                  std::all_of(report.surfaces.begin(), report.surfaces.end(), passed);
   return report;
 }
 

@@ -273,7 +273,7 @@ bool self_test() {
   const auto decoded = proto::decode_refine(kMesh, proto::BodyKind::json, {}, proto::Limits{});
   if (!decoded) return false;
   const auto report = compute_report(*decoded, Budget{});
-  return report.ok() && report->passed;
+  return report.ok() && report->verdict() == oracle::Verdict::passed;
 }
 
 }  // namespace subdivd::server

@@ -174,15 +174,16 @@ oracle::Report report_with_a_failure() {
   deviation.max_absolute = std::numeric_limits<double>::infinity();
   deviation.tolerance = 1e-12;
   deviation.compared = 6;
-  deviation.within_tolerance = false;
+  deviation.verdict = oracle::Verdict::failed;
   deviation.worst_vertex = 4;
   deviation.worst_face = 1;
   deviation.worst_u = 0.5;
   oracle::Report report;
   report.oracle = "OpenSubdiv";
-  report.meshes.push_back({"m", "double", {{1, true, 6, 4, 0, {deviation}}}, false, {"a remark"}});
-  report.curves.push_back({"c", "single", {}, true, {}});
-  report.surfaces.push_back({"s", "double", {{2, true, 25, 0, 16, {}}}, true, {}});
+  report.meshes.push_back(
+      {"m", "double", {{1, true, 6, 4, 0, {deviation}}}, oracle::Verdict::failed, {"a remark"}});
+  report.curves.push_back({"c", "single", {}, oracle::Verdict::nothing_compared, {}});
+  report.surfaces.push_back({"s", "double", {{2, true, 25, 0, 16, {}}}, oracle::Verdict::passed, {}});
   return report;
 }
 
@@ -196,6 +197,21 @@ TEST(write, a_report_tells_the_worst_place) {
   EXPECT_EQ(verification["curves"][0]["name"], "c");
   EXPECT_EQ(verification["surfaces"][0]["levels"][0]["quads"], 16);
   EXPECT_FALSE(verification["surfaces"][0]["levels"][0].contains("triangles"));
+}
+
+// Of six edges that are all semi-sharp no limit can be compared; that was called a pass.
+TEST(write, a_report_does_not_pass_what_was_not_compared) {
+  oracle::Deviation points{.quantity = "points", .compared = 10, .verdict = oracle::Verdict::passed};
+  const oracle::Deviation limits{.quantity = "limitPoints", .excepted = 10, .exception = "semi-sharp"};
+  oracle::Report report;
+  report.meshes.push_back({"m", "double", {{1, true, 10, 16, 0, {points, limits}}}});
+  report.meshes[0].verdict = verdict_of(report.meshes[0].levels);
+  const json verification = json::parse(subdivd::proto::json::report(report));
+  const json& mesh = verification["meshes"][0];
+  EXPECT_EQ(mesh["levels"][0]["deviations"][0]["withinTolerance"], true);
+  for (const json& verdict : {mesh["levels"][0]["deviations"][1]["withinTolerance"],
+                              mesh["levels"][0]["passed"], mesh["passed"], verification["passed"]})
+    EXPECT_TRUE(verdict.is_null()) << verification;
 }
 
 TEST(write, a_report_has_null_for_what_is_no_number) {

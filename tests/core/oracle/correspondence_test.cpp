@@ -11,7 +11,7 @@ namespace {
 Correspondence matched(const Both<double>& both) {
   return match(
       OurConnectivity{both.ours.level, both.ours.triangles, both.ours.triangle_faces, both.ours.provenance},
-      both.far);
+      both.far, patient());
 }
 
 bool identical(const Both<double>& both) { return matched(both).identical; }

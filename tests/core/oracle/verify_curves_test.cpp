@@ -5,6 +5,7 @@
 #include "core/oracle/compare.h"
 #include "core/oracle/verify.h"
 #include "tests/core/curves/sample_curves.h"
+#include "tests/core/oracle/fixtures.h"
 
 namespace subdivd::oracle::testing {
 namespace {
@@ -25,14 +26,15 @@ FarCurves far_at(const ControlCurves& curves, Index level) {
 }
 
 LevelReport compared(const RefinedCurves<double>& ours, const ControlCurves& curves) {
-  return compare(ours, far_at(curves, ours.level), point_scale(curves.points, curves.width));
+  return compare(ours, far_at(curves, ours.level), point_scale(curves.points, curves.width, patient()),
+                 patient());
 }
 
 template <class Real>
 void expect_passes(const ControlCurves& curves, const CurveOptions& options) {
   const auto report = verify<Real>(curves, options, Budget{});
   ASSERT_TRUE(report.ok());
-  EXPECT_TRUE(report->passed);
+  EXPECT_EQ(report->verdict, Verdict::passed);
   ASSERT_EQ(report->levels.size(), options.level);
   for (const LevelReport& level : report->levels) {
     ASSERT_EQ(level.deviations.size(), 2u);
@@ -70,7 +72,24 @@ TEST(VerifyCurves, level_zero_compares_the_limits_of_the_control_points) {
   ASSERT_TRUE(report.ok());
   ASSERT_EQ(report->levels.size(), 1u);
   EXPECT_EQ(report->levels[0].deviations[1].compared, 5u);
-  EXPECT_TRUE(report->passed);
+  EXPECT_EQ(report->verdict, Verdict::passed);
+}
+
+TEST(VerifyCurves, widens_the_tolerance_far_from_the_origin_and_says_so) {
+  auto curves = random_curve(CurveWrap::pinned, 6);
+  for (double& x : curves.points) x += 1e6;
+  const auto report = verify<double>(curves, kWithLimits, Budget{});
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->verdict, Verdict::passed);
+  EXPECT_GT(report->levels[0].deviations[0].tolerance, 1e-8);
+  EXPECT_NE(report->remarks.back().find("origin"), std::string::npos) << report->remarks.back();
+}
+
+TEST(VerifyCurves, names_the_ends_that_it_leaves_out) {
+  const auto report = verify<double>(random_curve(CurveWrap::nonperiodic, 6), kWithLimits, Budget{});
+  ASSERT_TRUE(report.ok());
+  ASSERT_EQ(report->remarks.size(), 2u);
+  EXPECT_TRUE(report->remarks[1].starts_with("limitPoints: left out: ")) << report->remarks[1];
 }
 
 TEST(VerifyCurves, finds_a_planted_point_and_its_parameter) {
@@ -79,12 +98,12 @@ TEST(VerifyCurves, finds_a_planted_point_and_its_parameter) {
   auto ours = refined_answer(curves, 3);
   ours.points[3 * (25 + 13) + 2] += 1e-6;  // 25 points of the first curve come before
   const LevelReport report = compared(ours, curves);
-  EXPECT_FALSE(passed(report));
+  EXPECT_EQ(report.verdict(), Verdict::failed);
   EXPECT_EQ(report.deviations[0].worst_vertex, 38u);
   EXPECT_EQ(report.deviations[0].worst_face, 1u);
   EXPECT_EQ(report.deviations[0].worst_u, 13.0 / 8);
   EXPECT_NEAR(report.deviations[0].max_absolute, 1e-6, 1e-12);
-  EXPECT_TRUE(report.deviations[1].within_tolerance);
+  EXPECT_EQ(report.deviations[1].verdict, Verdict::passed);
 }
 
 TEST(VerifyCurves, finds_a_planted_limit_in_every_wrap) {
@@ -93,8 +112,8 @@ TEST(VerifyCurves, finds_a_planted_limit_in_every_wrap) {
     auto ours = refined_answer(curves, 2);
     ours.limit_points[3 * 5] += 1e-6;
     const LevelReport report = compared(ours, curves);
-    EXPECT_TRUE(report.deviations[0].within_tolerance);
-    EXPECT_FALSE(report.deviations[1].within_tolerance);
+    EXPECT_EQ(report.deviations[0].verdict, Verdict::passed);
+    EXPECT_EQ(report.deviations[1].verdict, Verdict::failed);
     EXPECT_EQ(report.deviations[1].worst_vertex, 5u);
   }
 }
@@ -116,7 +135,7 @@ TEST(VerifyCurves, finds_a_curve_refined_by_another_rule_for_its_ends) {
   ours.points.resize(3 * 21), ours.limit_points.resize(3 * 21);
   const LevelReport report = compared(ours, as_open);
   EXPECT_TRUE(report.connectivity_identical);
-  EXPECT_FALSE(passed(report));
+  EXPECT_EQ(report.verdict(), Verdict::failed);
   EXPECT_EQ(report.deviations[0].worst_vertex, 0u);
 }
 
@@ -124,7 +143,7 @@ TEST(VerifyCurves, finds_a_missing_point) {
   const auto curves = random_curve(CurveWrap::pinned, 6);
   auto ours = refined_answer(curves, 2);
   ours.points.resize(ours.points.size() - 3);
-  EXPECT_FALSE(passed(compared(ours, curves)));
+  EXPECT_EQ(compared(ours, curves).verdict(), Verdict::failed);
 }
 
 TEST(VerifyCurves, refuses_too_much_memory_before_any_work) {

@@ -1,6 +1,6 @@
 #include "core/oracle/verify.h"
 
-#include <atomic>
+#include <chrono>
 
 #include "tests/core/oracle/fixtures.h"
 
@@ -10,7 +10,7 @@ namespace {
 TEST(Verify, passes_a_mesh_that_has_everything) {
   const auto report = verify<double>(rich_mesh(), everything(3), Budget{});
   ASSERT_TRUE(report.ok());
-  EXPECT_TRUE(report->passed);
+  EXPECT_EQ(report->verdict, Verdict::passed);
   EXPECT_EQ(report->precision, "double");
   ASSERT_EQ(report->levels.size(), 3u);
   for (Index level = 1; level <= 3; ++level) {
@@ -22,7 +22,7 @@ TEST(Verify, passes_a_mesh_that_has_everything) {
 TEST(Verify, passes_in_single_precision) {
   const auto report = verify<float>(rich_mesh(), everything(3), Budget{});
   ASSERT_TRUE(report.ok());
-  EXPECT_TRUE(report->passed);
+  EXPECT_EQ(report->verdict, Verdict::passed);
   EXPECT_EQ(report->precision, "single");
 }
 
@@ -32,7 +32,43 @@ TEST(Verify, level_zero_compares_the_control_mesh_and_its_limits) {
   ASSERT_EQ(report->levels.size(), 1u);
   EXPECT_EQ(report->levels[0].level, 0u);
   EXPECT_GT(find(report->levels[0], "limitPoints").compared, 0u);
-  EXPECT_TRUE(report->passed);
+  EXPECT_EQ(report->verdict, Verdict::passed);
+}
+
+// "passed": true, said the report, with 0 limits compared.
+TEST(Verify, does_not_pass_limits_of_which_none_could_be_compared) {
+  ControlMesh mesh = shapes::tetrahedron();
+  for (const auto& [a, b] : shapes::edges_of(mesh)) shapes::crease(mesh, {a, b}, 9);
+  RefineOptions options;
+  options.level = 1;
+  options.limit = true;
+  const auto report = verify<double>(mesh, options, Budget{});
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(find(report->levels[0], "points").verdict, Verdict::passed);
+  EXPECT_EQ(find(report->levels[0], "limitPoints").compared, 0u);
+  EXPECT_EQ(find(report->levels[0], "limitPoints").verdict, Verdict::nothing_compared);
+  EXPECT_EQ(report->levels[0].verdict(), Verdict::nothing_compared);
+  EXPECT_EQ(report->verdict, Verdict::nothing_compared);
+  ASSERT_FALSE(report->remarks.empty());
+  EXPECT_TRUE(report->remarks[0].starts_with("limitPoints: left out, all of them: ")) << report->remarks[0];
+}
+
+TEST(Verify, passes_when_the_limits_of_the_level_asked_for_were_compared) {
+  ControlMesh mesh = shapes::tetrahedron();
+  for (const auto& [a, b] : shapes::edges_of(mesh)) shapes::crease(mesh, {a, b}, 2);
+  const auto report = verify<double>(mesh, everything(3), Budget{});
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->levels[0].verdict(), Verdict::nothing_compared);
+  EXPECT_EQ(report->verdict, Verdict::passed);
+}
+
+// Between any two allocations of Far's nobody can stop it; everywhere else the budget does.
+TEST(Verify, stops_in_the_middle_of_its_work) {
+  Budget budget;
+  budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(20);
+  const auto report = verify<double>(shapes::big_torus(60, 60, 1), everything(4), budget);
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.error().code, ErrorCode::deadline_exceeded);
 }
 
 TEST(Verify, compares_limits_and_normals_only_when_asked) {

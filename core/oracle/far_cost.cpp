@@ -1,0 +1,223 @@
+#include "core/oracle/far_cost.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/mesh/edges.h"
+#include "core/refine/split.h"
+
+namespace subdivd::oracle {
+namespace {
+
+// See the tables in README.md. Per step of a search, per element of a mesh, per corner.
+constexpr Picoseconds kPerSearch = 350, kPerValueSearch = 100, kPerTornSearch = 1'000;
+constexpr Picoseconds kPerPoint = 60'000, kPerFace = 300'000, kPerFaceAndChannel = 150'000;
+constexpr Picoseconds kPerCrease = 30'000;
+constexpr Picoseconds kPerCrowdedCorner = 50'000, kPerDistantCorner = 1'500'000;
+constexpr Picoseconds kPerElement = 60'000, kPerElementAndChannel = 16'000;
+constexpr Picoseconds kPerQuad = 700'000;
+
+constexpr Index kNear = 64;       // difference of numbers of points that probably share cache lines
+constexpr Count kFewMembers = 6;  // what Far has room for at every point
+
+Count channel_count(const ControlMesh& mesh) {
+  return static_cast<Count>(std::count_if(
+      mesh.primvars.begin(), mesh.primvars.end(),
+      [](const Primvar& primvar) { return primvar.interpolation == Interpolation::face_varying; }));
+}
+
+// Row v of the corners of the points, in the form that find_edges wants.
+Result<std::vector<Index>> corner_offsets(const ControlMesh& mesh, const Budget& budget) {
+  BudgetPoller poller(budget);
+  std::vector<Index> offsets(mesh.point_count() + 1, 0);
+  for (const Index v : mesh.face_vertex_indices) {
+    if (auto stop = poller.spend(1)) return *stop;
+    ++offsets[v + 1];
+  }
+  for (std::size_t v = 1; v < offsets.size(); ++v) {
+    if (auto stop = poller.spend(1)) return *stop;
+    offsets[v] += offsets[v - 1];
+  }
+  return offsets;
+}
+
+bool is_near(Index v, const Index* face) {
+  return std::any_of(face, face + 3, [v](Index w) { return std::max(v, w) - std::min(v, w) <= kNear; });
+}
+
+class LoadFinder {
+ public:
+  LoadFinder(const ControlMesh& mesh, const std::vector<Index>& offsets, const Edges& edges,
+             const Budget& budget)
+      : mesh_(mesh), offsets_(offsets), edges_(edges), poller_(budget), edges_of_(mesh.point_count(), 0) {
+    load_.points = mesh.point_count();
+    load_.edges = edges.count();
+    load_.faces = mesh.face_count();
+    load_.face_varying_channels = channel_count(mesh);
+  }
+
+  Result<FarLoad> run() {
+    for (const auto step : {&LoadFinder::count_edges, &LoadFinder::add_points, &LoadFinder::add_corners,
+                            &LoadFinder::add_creases, &LoadFinder::add_torn_edges})
+      if (auto done = (this->*step)(); !done) return done.error();
+    return load_;
+  }
+
+ private:
+  Count faces_of(Index v) const { return Count{offsets_[v + 1]} - offsets_[v]; }
+
+  Result<void> count_edges() {
+    for (const auto& ends : edges_.vertices) {
+      if (auto stop = poller_.spend(1)) return *stop;
+      for (const Index v : ends) ++edges_of_[v];
+    }
+    return {};
+  }
+
+  Result<void> add_points() {
+    for (Index v = 0; v < load_.points; ++v) {
+      if (auto stop = poller_.spend(1)) return *stop;
+      const Count faces = faces_of(v), edges = edges_of_[v];
+      if (std::max(faces, edges) > kMostFacesOfAPoint)
+        return Error{ErrorCode::unsupported,
+                     "OpenSubdiv takes at most " + std::to_string(kMostFacesOfAPoint) +
+                         " faces and edges at a point; this one has " + std::to_string(faces) +
+                         " faces and " + std::to_string(edges) + " edges",
+                     {"points", v},
+                     0,
+                     0};
+      load_.searches += faces * edges;
+      load_.value_searches += faces * faces * load_.face_varying_channels;
+      if (faces > kFewMembers || edges > kFewMembers) load_.crowded_corners += faces;
+      if (faces * edges > load_.busiest_faces * load_.busiest_edges) {
+        load_.busiest_point = v;
+        load_.busiest_faces = faces;
+        load_.busiest_edges = edges;
+      }
+    }
+    return {};
+  }
+
+  Result<void> add_corners() {
+    const std::vector<Index>& corners = mesh_.face_vertex_indices;
+    for (std::size_t h = 3; h < corners.size(); ++h) {
+      if (auto stop = poller_.spend(1)) return *stop;
+      if (!is_near(corners[h], &corners[h / 3 * 3 - 3])) ++load_.distant_corners;
+    }
+    return {};
+  }
+
+  Result<void> add_creases() {
+    Count point = 0;
+    for (const Index length : mesh_.crease_lengths) {
+      for (Index k = 1; k < length; ++k, ++point) {
+        if (auto stop = poller_.spend(1)) return *stop;
+        ++load_.creases;
+        load_.crease_searches +=
+            std::min(edges_of_[mesh_.crease_indices[point]], edges_of_[mesh_.crease_indices[point + 1]]);
+      }
+      ++point;
+    }
+    return {};
+  }
+
+  Result<void> add_torn_edges() {
+    std::vector<Index> faces_of_edge(edges_.count(), 0);
+    for (const Index e : edges_.of_half_edges) {
+      if (auto stop = poller_.spend(1)) return *stop;
+      ++faces_of_edge[e];
+    }
+    for (const Index e : edges_.non_manifold) {
+      if (auto stop = poller_.spend(1)) return *stop;
+      const Count faces = faces_of_edge[e];
+      load_.most_faces_of_an_edge = std::max(load_.most_faces_of_an_edge, faces);
+      if (faces > 2) load_.torn_searches += 3 * faces * faces * load_.face_varying_channels;
+    }
+    return {};
+  }
+
+  const ControlMesh& mesh_;
+  const std::vector<Index>& offsets_;
+  const Edges& edges_;
+  BudgetPoller poller_;
+  std::vector<Index> edges_of_;
+  FarLoad load_;
+};
+
+std::string milliseconds(Picoseconds time) {
+  return std::to_string(time / 1'000'000'000) + " milliseconds, in which it cannot be stopped; " +
+         std::to_string(kLongestFarCall / 1'000'000'000) + " are allowed";
+}
+
+Error too_long(std::string message, Path where, Picoseconds time) {
+  return Error{ErrorCode::too_large, std::move(message), std::move(where), time / 1'000'000'000,
+               kLongestFarCall / 1'000'000'000};
+}
+
+}  // namespace
+
+Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget) {
+  const auto offsets = corner_offsets(mesh, budget);
+  if (!offsets) return offsets.error();
+  const auto edges =
+      find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, *offsets, budget);
+  if (!edges) return edges.error();
+  return LoadFinder(mesh, *offsets, *edges, budget).run();
+}
+
+Picoseconds far_build_time(const FarLoad& load) {
+  return load.points * kPerPoint + load.faces * kPerFace +
+         load.faces * load.face_varying_channels * kPerFaceAndChannel + load.searches * kPerSearch +
+         load.value_searches * kPerValueSearch + load.creases * kPerCrease +
+         load.crease_searches * kPerSearch + load.crowded_corners * kPerCrowdedCorner +
+         load.distant_corners * kPerDistantCorner;
+}
+
+Picoseconds far_refine_time(const FarLoad& load, Index level) {
+  Count elements = 0;
+  for (Index l = 1; l <= level; ++l) {
+    const LevelCounts counts = refined_counts(load.points, load.edges, load.faces, l);
+    elements += counts.vertices + counts.edges + counts.triangles;
+  }
+  // An edge becomes two of as many faces at every level.
+  return elements * (kPerElement + kPerElementAndChannel * load.face_varying_channels) +
+         load.torn_searches * (segments(level) - 1) * kPerTornSearch;
+}
+
+Result<void> check_far_time(const FarLoad& load, Index level) {
+  if (const Picoseconds time = far_build_time(load); time > kLongestFarCall) {
+    const bool one_point = load.busiest_faces * load.busiest_edges >= load.searches / 2 &&
+                           load.searches * kPerSearch >= time / 2;
+    if (one_point)
+      return too_long("OpenSubdiv looks for every face of a point among all edges there: this one has " +
+                          std::to_string(load.busiest_faces) + " faces and " +
+                          std::to_string(load.busiest_edges) + " edges, which would take it about " +
+                          milliseconds(time),
+                      {"points", load.busiest_point}, time);
+    return too_long("OpenSubdiv would look for the neighbours of " + std::to_string(load.faces) +
+                        " faces for about " + milliseconds(time) + ": verify a smaller mesh",
+                    {}, time);
+  }
+  if (const Picoseconds time = far_refine_time(load, level); time > kLongestFarCall) {
+    const bool torn = load.torn_searches * (segments(level) - 1) * kPerTornSearch >= time / 2;
+    const std::string found =
+        torn ? "face-varying values along an edge of " + std::to_string(load.most_faces_of_an_edge) + " faces"
+             : std::to_string(load.faces) + " faces";
+    return too_long("OpenSubdiv would refine " + found + " to level " + std::to_string(level) +
+                        " in one go of about " + milliseconds(time) + ": choose a lower level",
+                    {}, time);
+  }
+  return {};
+}
+
+Result<void> check_far_grid_time(Count quads) {
+  const Picoseconds time = quads * kPerQuad;
+  if (time <= kLongestFarCall) return {};
+  return too_long("OpenSubdiv would refine a grid to " + std::to_string(quads) +
+                      " quads in one go of about " + milliseconds(time) + ": choose a lower level",
+                  {}, time);
+}
+
+}  // namespace subdivd::oracle

@@ -1,0 +1,132 @@
+// What verifying takes is known before, and what it does not get is no fault of the caller's.
+
+#include <new>
+#include <numeric>
+#include <string>
+
+#include "core/oracle/verify.h"
+#include "tests/core/oracle/allocations.h"
+#include "tests/core/oracle/fixtures.h"
+
+namespace subdivd::oracle::testing {
+namespace {
+
+struct Shape {
+  const char* name;
+  ControlMesh mesh;
+  Index deepest;
+};
+
+ControlMesh confetti(Index faces) {
+  ControlMesh mesh = shapes::torus(3, 3);
+  mesh.points.resize(std::size_t{9} * faces);
+  for (std::size_t k = 0; k < mesh.points.size(); ++k) mesh.points[k] = double(k * 7919 % 1000);
+  mesh.face_vertex_indices.resize(std::size_t{3} * faces);
+  std::iota(mesh.face_vertex_indices.begin(), mesh.face_vertex_indices.end(), 0u);
+  return mesh;
+}
+
+// Triangles between any points: every point has some dozen faces, hardly any edge two.
+ControlMesh thicket(Index points, Index faces) {
+  ControlMesh mesh = confetti(points / 3);
+  mesh.face_vertex_indices.clear();
+  for (Index f = 0; f < faces; ++f) {
+    const Index a = f * 2654435761u % points, b = (a + 1 + f * 40503u % (points / 2)) % points;
+    Index c = (b + 1 + f * 9176u % (points / 2 - 1)) % points;
+    while (c == a || c == b) c = (c + 1) % points;
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {a, b, c});
+  }
+  return mesh;
+}
+
+ControlMesh with(ControlMesh mesh, Interpolation interpolation, Index width, int channels) {
+  for (int k = 0; k < channels; ++k)
+    mesh.primvars.push_back(interpolation == Interpolation::face_varying
+                                ? shapes::unindexed(mesh, std::to_string(k), width)
+                                : shapes::plain_primvar(mesh, std::to_string(k), interpolation, width));
+  return mesh;
+}
+
+std::vector<Shape> worst_shapes() {
+  const auto varying = Interpolation::face_varying;
+  std::vector<Shape> shapes;
+  shapes.push_back({"confetti", confetti(3000), 3});
+  shapes.push_back({"confetti_with_channels", with(confetti(1000), varying, 2, 8), 3});
+  shapes.push_back({"torus", shapes::big_torus(40, 40, 1), 4});
+  shapes.push_back({"torus_with_a_wide_channel", with(shapes::big_torus(20, 20, 1), varying, 40, 1), 3});
+  shapes.push_back({"torus_with_channels", with(shapes::big_torus(20, 20, 1), varying, 1, 16), 3});
+  shapes.push_back(
+      {"torus_with_vertex_values", with(shapes::big_torus(20, 20, 1), Interpolation::vertex, 30, 2), 3});
+  shapes.push_back(
+      {"torus_with_uniform_values", with(shapes::big_torus(20, 20, 1), Interpolation::uniform, 30, 2), 3});
+  shapes.push_back({"fan", shapes::disk(4000), 2});
+  shapes.push_back({"thicket", thicket(600, 3000), 2});
+  ControlMesh lonely = shapes::tetrahedron();
+  lonely.points.resize(300000, 0.5);
+  shapes.push_back({"unreferenced_points", lonely, 1});
+  return shapes;
+}
+
+// The most that this work has allocated at once.
+template <class Work>
+std::int64_t peak_of(Work&& work) {
+  const Allocations allocations;
+  EXPECT_TRUE(work());
+  return allocations.peak_bytes();
+}
+
+TEST(Memory, of_verifying_stays_within_what_is_predicted) {
+  if (!kCounts) GTEST_SKIP();
+  for (const Shape& shape : worst_shapes()) {
+    ASSERT_TRUE(shape.mesh.check().ok()) << shape.name;
+    for (Index level = 0; level <= shape.deepest; ++level) {
+      const RefineOptions options = everything(level);
+      const std::int64_t ours = peak_of([&] { return refine<double>(shape.mesh, options, Budget{}).ok(); });
+      const std::int64_t all = peak_of([&] { return verify<double>(shape.mesh, options, Budget{}).ok(); });
+      const Count predicted = far_mesh_bytes(shape.mesh, level) + report_bytes(shape.mesh, level);
+      const std::int64_t far =
+          peak_of([&] { return far_refine<double>(shape.mesh, options, Budget{}).ok(); });
+      EXPECT_LE(far, std::int64_t(predicted)) << shape.name << ", level " << level;
+      // Not all of our own share is there when Far is at its peak.
+      const double share = double(std::max(all - ours, far)) / double(predicted);
+      RecordProperty(std::string(shape.name) + "_" + std::to_string(level), std::to_string(share));
+      EXPECT_LE(share, 1) << shape.name << ", level " << level;
+      EXPECT_GE(share, 0.2) << shape.name << ", level " << level << ": too careful";
+    }
+  }
+}
+
+// Every allocation in turn, Far's among them, is the one that there is no memory for.
+TEST(Memory, that_runs_out_is_neither_swallowed_nor_blamed_on_the_mesh) {
+  if (!kCounts) GTEST_SKIP();  // Far loses the level that it was about to make; LeakSanitizer would say so
+  const ControlMesh mesh = rich_mesh();
+  std::int64_t count = 0;
+  {
+    const Allocations allocations;
+    ASSERT_TRUE(verify<double>(mesh, everything(2), Budget{}).ok());
+    count = allocations.count();
+  }
+  ASSERT_GT(count, 100);
+  for (std::int64_t failing = 0; failing < count; ++failing) {
+    const Allocations allocations(failing);
+    bool thrown = false;
+    try {
+      const auto report = verify<double>(mesh, everything(2), Budget{});
+    } catch (const std::bad_alloc&) {
+      thrown = true;
+    }
+    EXPECT_TRUE(thrown) << "allocation " << failing << " of " << count;
+  }
+}
+
+TEST(Memory, estimates_of_absurd_sizes_stay_numbers) {
+  ControlMesh mesh = shapes::tetrahedron();
+  mesh.face_vertex_indices.resize(3000000);
+  mesh.primvars.resize(100000);
+  for (Primvar& primvar : mesh.primvars) primvar.element_size = kMaxElementSize;
+  EXPECT_GT(far_mesh_bytes(mesh, kMaxLevel), Count{1} << 62);
+  EXPECT_EQ(far_mesh_bytes(mesh, kMaxLevel), far_mesh_bytes(mesh, kMaxFarLevel));
+}
+
+}  // namespace
+}  // namespace subdivd::oracle::testing
