@@ -9,16 +9,21 @@ import { fileURLToPath } from 'node:url';
 export const root = process.env.SUBDIVD_SOURCE_DIR ?? join(dirname(fileURLToPath(import.meta.url)), '../..');
 const program = process.env.SUBDIVD_DAEMON ?? join(root, 'build/subdivd');
 
-// Resolves once /readyz says 200: { url, stop(signal) }. stop resolves to the exit code, or to the name of the
-// signal that killed the daemon.
-export async function startDaemon(flags = []) {
-  const child = spawn(program, ['--port', '0', '--log-level', 'error', ...flags], { stdio: ['ignore', 'pipe', 'inherit'] });
+// Resolves once /readyz says 200: { url, port, child, stop(signal) }. stop resolves to the exit code, or to the name of
+// the signal that killed the daemon. `log` is where its stderr goes, `inShell` a command before it ('ulimit -v 1000000').
+export async function startDaemon(flags = [], { log = 'inherit', inShell } = {}) {
+  const level = flags.includes('--log-level') ? [] : ['--log-level', 'error'];
+  const words = [program, '--port', '0', ...level, ...flags];
+  if (inShell) words.unshift('sh', '-c', `${inShell}; exec "$@"`, 'sh');
+  const child = spawn(words[0], words.slice(1), { stdio: ['ignore', 'pipe', log] });
   const ended = once(child, 'exit').then(([code, signal]) => code ?? signal);
   process.once('exit', () => child.kill('SIGKILL'));  // a failed test must not leave a daemon behind
   const url = await Promise.race([urlPrintedBy(child), ended.then((code) => { throw new Error(`the daemon ended with ${code}`); })]);
   await untilReady(url);
   return {
     url,
+    port: Number(new URL(url).port),
+    child,
     stop(signal = 'SIGTERM') {
       child.kill(signal);
       return ended;

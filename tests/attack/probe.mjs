@@ -1,0 +1,10 @@
+import * as b from './bodies.mjs';
+import { ask, post } from './client.mjs';
+import { startDaemon } from '../e2e/daemon.mjs';
+import { peakBytes, residentBytes, inMiB, processorSeconds } from './process.mjs';
+const [,, path, call, ...flags] = process.argv;
+const d = await startDaemon(flags);
+const body = eval('b.'+call);
+const a = await post(d.port, path, body, {patience: 100000});
+console.log(call, flags.join(' '), body.length, '->', a.status, Math.round(a.ms)+'ms', a.size, a.status==200?'':a.body.slice(0,330), 'peak', inMiB(peakBytes(d)), 'cpu', processorSeconds(d));
+d.child.kill('SIGKILL');
