@@ -77,18 +77,13 @@ Result<void> check_fits(const std::vector<double>& values, const Path& where) {
   return {};
 }
 
-Result<void> check_fits(const ControlMesh& mesh) {
-  if (Result<void> fine = check_fits(mesh.points, {"points"}); !fine) return fine;
-  for (const Primvar& primvar : mesh.primvars)
-    if (Result<void> fine = check_fits(primvar.values, {"primvars", primvar.name, "values"}); !fine)
-      return fine;
-  return {};
-}
-
 Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
   json::FaceHistory history;
   Result<void> fine = repair_and_check(request, i, history, budget);
-  if (fine && answer_precision(request) == Precision::single_precision) fine = check_fits(request.meshes[i]);
+  if (fine)
+    fine = answer_precision(request) == Precision::single_precision
+               ? check_magnitudes<float>(request.meshes[i], budget)
+               : check_magnitudes<double>(request.meshes[i], budget);
   if (history.changed()) {
     request.face_origins.resize(request.meshes.size());
     request.face_origins[i] = history.original_faces();
