@@ -76,25 +76,14 @@ void override_meshes(RefineRequest& request) {
   }
 }
 
-// Adjacency and rules of a mesh, and of each of its channels and render meshes, while it is refined: rounded
-// up from what closed meshes take and from what separate triangles take, with three points and edges a face.
-constexpr Count kPlanBytesPerFace = 112, kPlanBytesPerPoint = 64;
-
-Count plan_bytes(const ControlMesh& mesh) {
-  const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, [](const Primvar& primvar) {
-    return primvar.interpolation == Interpolation::face_varying;
-  }));
-  return (kPlanBytesPerFace * mesh.face_count() + kPlanBytesPerPoint * mesh.point_count()) *
-         (1 + channels + (mesh.render_meshes.empty() ? 0 : 1));
-}
-
 template <class Real>
-Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes) {
+Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes,
+                            const Budget& budget) {
   Count bytes = 0;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    Result<RefinedSize> size = predict_size<Real>(request.meshes[i], mesh_options(request));
+    Result<RefinedSize> size = predict_size<Real>(request.meshes[i], mesh_options(request), budget);
     if (!size) return blame_input(request, size.error(), "meshes", i);
-    bytes += size->bytes + plan_bytes(request.meshes[i]);
+    bytes += size->bytes + size->working_bytes;
     sizes.push_back(std::move(*size));
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
@@ -133,12 +122,11 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
   return request;
 }
 
-Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
-                                  [[maybe_unused]] const Budget& budget) {
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits, const Budget& budget) {
   std::vector<RefinedSize> sizes;
   const Result<Count> working = answer_precision(request) == Precision::single_precision
-                                    ? working_bytes<float>(request, sizes)
-                                    : working_bytes<double>(request, sizes);
+                                    ? working_bytes<float>(request, sizes, budget)
+                                    : working_bytes<double>(request, sizes, budget);
   if (!working) return working.error();
   Prediction prediction;
   prediction.working_bytes = *working;

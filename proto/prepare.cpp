@@ -173,14 +173,6 @@ Result<void> check_fits(std::span<const double> values, const Path& where, const
   return {};
 }
 
-Result<void> check_fits(const ControlMesh& mesh, const Budget& budget) {
-  if (Result<void> fine = check_fits(mesh.points, {"points"}, budget); !fine) return fine;
-  for (const Primvar& primvar : mesh.primvars)
-    if (auto fine = check_fits(primvar.values, {"primvars", primvar.name, "values"}, budget); !fine)
-      return fine;
-  return {};
-}
-
 // THE place where places of the core become pointers into the body.
 Error blame(const RefineRequest& request, Error error, const char* of, std::size_t i,
             const json::FaceHistory& history) {
@@ -218,8 +210,10 @@ Error blame(const RefineRequest& request, Error error, const char* of, std::size
 Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
   json::FaceHistory history;
   Result<void> fine = repair_and_check(request, i, history, budget);
-  if (fine && answer_precision(request) == Precision::single_precision)
-    fine = check_fits(request.meshes[i], budget);
+  if (fine)
+    fine = answer_precision(request) == Precision::single_precision
+               ? check_magnitudes<float>(request.meshes[i], budget)
+               : check_magnitudes<double>(request.meshes[i], budget);
   if (!fine) return blame(request, std::move(fine).error(), "meshes", i, history);
   if (history.changed()) {
     request.face_origins.resize(request.meshes.size());

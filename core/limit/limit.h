@@ -62,7 +62,8 @@ template <class Real>
 Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
                    std::span<const Real> values, Index width);
 
-// A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see core/schemes/scheme.h.
+// A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see
+// core/schemes/scheme.h.
 template <class Scheme, class Real>
 class LimitRing {
  public:

@@ -29,8 +29,8 @@ struct Channel {
 std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pace = {});
 
 // `corner_values`: one value index per face corner, each < value_count. `base` and `base_sharpness` are the
-// control mesh's own (control_sharpness), `vertices` is vertices_with_faces(base); the crease method tells how
-// long a semi-sharp crease holds. Linear in the faces and values, but values are sorted at each vertex.
+// control mesh's own (control_sharpness), `vertices` is vertices_with_faces(base); the crease method tells
+// how long a semi-sharp crease holds. Linear in the faces and values, but values are sorted at each vertex.
 Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
                      const Sharpness& base_sharpness, std::span<const Index> vertices,
                      std::span<const Index> corner_values, Index value_count, const Pace& pace = {});

@@ -199,9 +199,11 @@ Result<void> check_corners_and_holes(const ControlMesh& mesh, const Pace& pace) 
                  "holds " + number(mesh.corner_sharpnesses.size()) + " numbers for " +
                      number(mesh.corner_indices.size()) + " cornerIndices",
                  {"cornerSharpnesses"});
-  if (auto fine = check_indices(mesh.corner_indices, mesh.point_count(), "points", {"cornerIndices"}, pace); !fine)
+  if (auto fine = check_indices(mesh.corner_indices, mesh.point_count(), "points", {"cornerIndices"}, pace);
+      !fine)
     return fine;
-  if (auto fine = check_unique(mesh.corner_indices, mesh.point_count(), "cornerIndices", pace); !fine) return fine;
+  if (auto fine = check_unique(mesh.corner_indices, mesh.point_count(), "cornerIndices", pace); !fine)
+    return fine;
   if (auto fine = check_sharpness(mesh.corner_sharpnesses, "cornerSharpnesses", pace); !fine) return fine;
   if (auto fine = check_indices(mesh.hole_indices, mesh.face_count(), "faces", {"holeIndices"}, pace); !fine)
     return fine;
@@ -225,7 +227,8 @@ Count expected_count(const ControlMesh& mesh, Interpolation interpolation) {
 
 Result<void> check_primvar(const ControlMesh& mesh, const Primvar& primvar, const Pace& pace) {
   auto member = [&](const char* name) { return Path{"primvars", primvar.name, name}; };
-  if (primvar.name.empty()) return fault(ErrorCode::out_of_range, "a primvar needs a name", {"primvars", primvar.name});
+  if (primvar.name.empty())
+    return fault(ErrorCode::out_of_range, "a primvar needs a name", {"primvars", primvar.name});
   if (primvar.element_size < 1 || primvar.element_size > kMaxElementSize)
     return fault(ErrorCode::out_of_range, "must be 1 to " + number(kMaxElementSize), member("elementSize"));
   if (primvar.values.size() % primvar.element_size != 0)
@@ -243,7 +246,8 @@ Result<void> check_primvar(const ControlMesh& mesh, const Primvar& primvar, cons
                  member(indexed ? "indices" : "values"));
   if (values >= kMaxIndexCount)
     return fault(ErrorCode::too_large, "has more values than 32-bit indices can number", member("values"));
-  if (auto fine = check_indices(primvar.indices, values, "values", member("indices"), pace); !fine) return fine;
+  if (auto fine = check_indices(primvar.indices, values, "values", member("indices"), pace); !fine)
+    return fine;
   return check_finite(primvar.values, member("values"), pace);
 }
 
@@ -283,7 +287,8 @@ Result<void> check_render_meshes(const ControlMesh& mesh, const Pace& pace) {
     if (render.indices.size() != 3 * Count{render.face_end - render.face_begin})
       return fault(ErrorCode::wrong_length, "3 indices per face are needed", at("renderMeshes", k));
     if (all_triangles_sound(render.indices, render.vertex_count, pace)) continue;
-    if (auto fine = check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k), pace);
+    if (auto fine =
+            check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k), pace);
         !fine)
       return fine;
     return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));

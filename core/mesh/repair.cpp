@@ -215,12 +215,11 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
   if (auto fine = mesh.check(budget); !fine && fine.error().code != ErrorCode::not_a_triangle)
     return std::move(fine).error();
   // check() meets the larger faces first: say what stands behind them.
-  return Error{
-      ErrorCode::wrong_length,
-      "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
-      {"primvars"},
-      0,
-      0};
+  return Error{ErrorCode::wrong_length,
+               "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
+               {"primvars"},
+               0,
+               0};
 }
 
 }  // namespace

@@ -114,7 +114,8 @@ Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology, c
     return topology.vertex_corners(v).size() == 1 && topology.vertex_edges(v).size() == 2;
   };
   const auto kinds = topology.edge_kinds();
-  for_each_set(kinds, [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; }, pace);
+  for_each_set(
+      kinds, [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; }, pace);
   pace.for_each(mesh.corner_indices.size(), [&](std::size_t k) {
     result.vertices[mesh.corner_indices[k]] = clamped(mesh.corner_sharpnesses[k]);
   });

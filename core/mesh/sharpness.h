@@ -34,8 +34,8 @@ float decay(float s);
 void decay_around_vertex(CreaseMethod method, std::span<const float> parent, std::span<float> child,
                          const Pace& pace = {});
 
-// What Chaikin's rule has to know of all edges at a vertex to decay one of them: the sum and the number of the
-// semi-sharp ones. The way of one that is semi-sharp, one level on.
+// What Chaikin's rule has to know of all edges at a vertex to decay one of them: the sum and the number of
+// the semi-sharp ones. The way of one that is semi-sharp, one level on.
 struct DecaySum {
   float sum = 0;
   Index count = 0;

@@ -247,8 +247,8 @@ void Topology::list_non_manifold(const Pace& pace) {
 }
 
 std::vector<Topology::Fan> Topology::in_order_of_corners(std::vector<Fan> fans, const Pace& pace) {
-  // Each one's lowest corner is looked for once: comparing the fans themselves would be quadratic where one of
-  // them has half the corners of a hub.
+  // Each one's lowest corner is looked for once: comparing the fans themselves would be quadratic where one
+  // of them has half the corners of a hub.
   std::vector<std::pair<Index, std::size_t>> order;
   order.reserve(fans.size());
   for (std::size_t k = 0; k < fans.size(); ++k) {

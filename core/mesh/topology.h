@@ -135,6 +135,13 @@ class Topology {
   std::vector<Index> crowd_half_edges_, crowd_offsets_;  // of the non-manifold edges
 };
 
+// What building a topology takes beside what it holds in the end, at most: the edges' homes while they are
+// found (edges.cpp), room for edges that grows, half-edges between hubs.
+inline Count topology_building_bytes(Count vertices, Count faces) {
+  const bool has_homes = vertices <= 3 * faces;
+  return 84 * faces + (has_homes ? 68 * vertices : 8 * vertices + 36 * faces);
+}
+
 // Cuts the fan that the vertex has at the edges that may not be passed.
 template <class Passable>
 std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable, const Pace& pace) const {

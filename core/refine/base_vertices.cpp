@@ -43,8 +43,8 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
 // Every edge's neighbour in the order of the edges around v, then the crease, then the vertex itself: the
 // order of the plain engine, to the bit.
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask,
-                                       Real* out, const Pace& pace) const {
+void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out,
+                                       const Pace& pace) const {
   const auto edges = net_.topology().vertex_edges(v);
   std::fill_n(out, width_, Real(0));
   const auto add = [&](double weight, Count point) {
@@ -93,8 +93,8 @@ void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from,
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin,
-                                        Index end, const Pace& pace) const {
+void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin, Index end,
+                                        const Pace& pace) const {
   for_each_in(net_.special_vertices(), begin, end,
               [&](Index v) { refine_special(segments(level), from, to, v, pace); });
   for_each_in(net_.unsettled_vertices(level), begin, end,

@@ -236,7 +236,8 @@ class Evaluation {
   void refine_faces(Worker& worker, const TriStep<Real>& step, std::vector<Real>* limit_rows) {
     if (step.n < 2) return;  // a face of two segments an edge has nothing inside
     const Count n = step.n, faces = net_.topology().face_count(), points = 2 * n * n;
-    const bool whole = points * steps_per_point() <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
+    const bool whole =
+        points * steps_per_point() <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
     const Range share = worker.share(faces * n * n);
     const FaceRow last = face_row(share.end, n, whole);
     const Count block = std::max<Count>(whole ? n * n : 1, kBlock / steps_per_point());

@@ -95,6 +95,16 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
   return net;
 }
 
+Count Net::resident_bytes() const {
+  const Count faces = topology_.face_count(), edges = topology_.edge_count(),
+              vertices = topology_.vertex_count();
+  return 2048 + 40 * faces + 32 * edges + 24 * vertices;
+}
+
+Count Net::building_bytes() const {
+  return topology_building_bytes(topology_.vertex_count(), topology_.face_count());
+}
+
 const SemiSharp& Net::semi_sharp(Index level) const {
   static const SemiSharp none;
   return level < levels_.size() ? levels_[level] : none;

@@ -58,6 +58,11 @@ class Net {
   // Of a channel: the mesh's net. Of the mesh: itself.
   const Net& mesh() const { return mesh_ ? *mesh_ : *this; }
 
+  // Of the net once it stands, and what building it takes beside that, at most; rounded up from what meshes
+  // of many kinds were measured to take.
+  Count resident_bytes() const;
+  Count building_bytes() const;
+
   Count value_count(Index level) const {
     return refined_counts(topology_.vertex_count(), topology_.edge_count(), topology_.face_count(), level)
         .vertices;

@@ -44,9 +44,8 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
     Sharpness sharpness = control_sharpness(mesh, topology, pace);
     plan.holes_ = hole_flags(mesh, topology, pace);
     pace.for_each(plan.holes_.size(), [&](std::size_t f) { plan.output_faces_ += plan.holes_[f] == 0; });
-    plan.nets_.push_back(
-        std::make_shared<const Net>(Net::build(*scheme, options.crease_method, std::move(topology),
-                                               std::move(sharpness), options.max_level, pace)));
+    plan.nets_.push_back(std::make_shared<const Net>(Net::build(
+        *scheme, options.crease_method, std::move(topology), std::move(sharpness), options.max_level, pace)));
     plan.add_channels(mesh, options.crease_method, pace);
     return plan;
   });

@@ -160,7 +160,8 @@ class Job {
           out.values = gathered<Real>(primvar.values, primvar.element_size, uniform_rows(primvar), pace_);
           break;
         case Interpolation::varying:
-          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar, pace_), Smoothing::linear, false, out);
+          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar, pace_), Smoothing::linear, false,
+                               out);
           break;
         case Interpolation::vertex:
           done = refine_values(plan_.mesh(), resolved_values<Real>(primvar, pace_), Smoothing::smooth,
@@ -168,8 +169,9 @@ class Job {
           break;
         case Interpolation::face_varying: {
           const Net& net = plan_.channel(channel++);
-          done = refine_values(net, gathered<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_),
-                               Smoothing::smooth, options_.limit, out);
+          done = refine_values(
+              net, gathered<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_),
+              Smoothing::smooth, options_.limit, out);
           if (done) done = write_indices(net, out.indices);
           break;
         }

@@ -31,6 +31,7 @@ struct RefinedSize {
   std::vector<Count> channel_values;   // per face-varying primvar, in order of ControlMesh::primvars
   std::vector<Count> render_vertices;  // per RenderMesh
   Count bytes = 0;                     // of all arrays of RefinedMesh<Real> together
+  Count working_bytes = 0;             // what refine() needs beside them, at most
 };
 // Refuses (out_of_range, too_large) levels over kMaxLevel and results that 32-bit indices cannot number.
 template <class Real>
@@ -38,9 +39,9 @@ Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& o
                                  const Budget& budget = {});
 
 // `mesh` must have passed check(). Fails for an unknown scheme, for values too large for Real
-// (check_magnitudes), for sizes (too_large, against budget.max_bytes as predicted) and when the budget says to
-// stop: some milliseconds after it does. The answer depends on
-// the arguments alone, to the bit. Instantiated for float and double.
+// (check_magnitudes), for sizes (too_large, against budget.max_bytes as predicted) and when the budget says
+// to stop: some milliseconds after it does. The answer depends on the arguments alone, to the bit.
+// Instantiated for float and double.
 template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);
 

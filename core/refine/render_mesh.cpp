@@ -28,9 +28,8 @@ Buffer<Index> sources_of(const Topology& render, const Topology& net, Index firs
       for (Index p = 0; p + 1 < n; ++p)
         sources[static_cast<Index>(to.side[k] + p * to.step[k])] = from.side[k] + p * from.step[k];
     }
-    pace.for_each(inner_points(n), [&](Count p) {
-      sources[to.inside + p] = static_cast<Index>(from.inside + p);
-    });
+    pace.for_each(inner_points(n),
+                  [&](Count p) { sources[to.inside + p] = static_cast<Index>(from.inside + p); });
   }
   return sources;
 }

@@ -11,8 +11,8 @@
 
 namespace subdivd {
 
-// `triangle_begin`: output triangles of the faces before this render mesh's. Takes time and memory for its own
-// faces and vertices alone: a mesh may have a hundred thousand of them.
+// `triangle_begin`: output triangles of the faces before this render mesh's. Takes time and memory for its
+// own faces and vertices alone: a mesh may have a hundred thousand of them.
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan& plan, Index level,
                                              Index triangle_begin, Index threads, const Budget& budget);
 

@@ -21,6 +21,79 @@ Result<void> check_count(std::string_view what, Count predicted) {
                kMaxIndexCount};
 }
 
+// The two levels below the last, the control values, and what is semi-sharp along edges under Chaikin's rule.
+template <class Real>
+Count evaluation_bytes(const Net& net, const RefineOptions& options, Count width) {
+  const Index level = options.level;
+  Count values = net.value_count(0);
+  for (Index below = 1; below <= 2 && below < level; ++below) values += net.value_count(level - below);
+  return values * width * sizeof(Real) + net.topology().edge_count();
+}
+
+Count chaikin_bytes(const Net& net, const RefineOptions& options) {
+  if (options.crease_method != CreaseMethod::chaikin) return 0;
+  // Twice as many numbers at every level, until even the sharpest have run out.
+  return net.semi_sharp(0).edges.size() * sizeof(float)
+         << (2 + std::min(options.level + 1, static_cast<Index>(kInfiniteSharpness) + 1));
+}
+
+// Per semi-sharp edge and crease point while nets are built; per value of a channel while it is numbered; and
+// of objects, of which there may be a hundred thousand, whatever they hold.
+constexpr Count kSemiSharpBytes = 64, kCreaseBytesPerPoint = 32, kValueBytes = 16, kBytesPerPrimvar = 512,
+                kBytesPerRenderMesh = 512, kBytesPerSource = 64;
+
+// While the ring of a hub is looked at, which is as large as the mesh.
+constexpr Count kHub = 4096, kBytesPerRingCorner = 176;
+
+Count ring_bytes(const Topology& topology, const Pace& pace) {
+  Count corners = 0;
+  pace.for_each(topology.vertex_count(), [&](Index v) {
+    if (const Count here = topology.vertex_corners(v).size(); here > kHub) corners += here;
+  });
+  return corners * kBytesPerRingCorner;
+}
+
+// What refine() needs beside its answer: the nets one after the other, then values one after the other.
+template <class Real>
+Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
+                    const Pace& pace) {
+  const bool limits = options.limit || options.tangents || options.normals;
+  const Count rings_of_mesh = limits ? ring_bytes(plan.mesh().topology(), pace) : 0;
+  Count resident = 0, building = 0, evaluation = 0;
+  const auto add_net = [&](const Net& net, Count width) {
+    resident += net.resident_bytes() + chaikin_bytes(net, options);
+    building = std::max(building, net.building_bytes() + kSemiSharpBytes * net.semi_sharp(0).edges.size());
+    evaluation = std::max(evaluation, evaluation_bytes<Real>(net, options, width) +
+                                          (limits ? ring_bytes(net.topology(), pace) : 0));
+  };
+  add_net(plan.mesh(), 3);
+  if (!mesh.crease_lengths.empty())
+    building += kCreaseBytesPerPoint * mesh.crease_indices.size() + 12 * mesh.point_count();
+  std::size_t channel = 0;
+  for (const Primvar& primvar : mesh.primvars) {
+    pace.spend(64);
+    resident += kBytesPerPrimvar;
+    if (primvar.interpolation == Interpolation::face_varying) {
+      add_net(plan.channel(channel++), primvar.element_size);
+      building = std::max(building, plan.channel(channel - 1).building_bytes() +
+                                        kValueBytes * plan.channel(channel - 1).value_count(0) +
+                                        4 * mesh.face_vertex_indices.size() + 4 * mesh.point_count());
+    } else if (primvar.interpolation == Interpolation::uniform) {
+      evaluation = std::max(evaluation, plan.counts(options.level).triangles * Count{sizeof(Index)});
+    } else if (primvar.interpolation != Interpolation::constant) {
+      evaluation = std::max(
+          evaluation, evaluation_bytes<Real>(plan.mesh(), options, primvar.element_size) + rings_of_mesh);
+    }
+  }
+  for (const RenderMesh& render : mesh.render_meshes) {
+    const Count faces = render.face_end - render.face_begin;
+    resident += kBytesPerRenderMesh + kBytesPerSource * plan.channel_count();
+    evaluation = std::max(evaluation, topology_building_bytes(render.vertex_count, faces) + 136 * faces +
+                                          24 * Count{render.vertex_count});
+  }
+  return resident + std::max(building, evaluation);
+}
+
 template <class Real>
 Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
                              const Pace& pace) {
@@ -74,6 +147,7 @@ Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& optio
     size.bytes += vertices * sizeof(Index) * (1 + plan.channel_count()) +
                   3 * sizeof(Index) * (static_cast<Count>(faces) << (2 * options.level));
   }
+  size.working_bytes = working_bytes<Real>(mesh, options, plan, pace);
   return size;
 }
 

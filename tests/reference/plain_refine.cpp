@@ -32,8 +32,8 @@ Control make_control(const ControlMesh& mesh, CreaseMethod method) {
       std::iota(corners.begin(), corners.end(), Index{0});
     }
     control.channels.push_back(
-        make_channel(mesh, method, control.topology, control.sharpness, vertices_with_faces(control.topology), corners,
-                     static_cast<Index>(primvar.values.size() / primvar.element_size)));
+        make_channel(mesh, method, control.topology, control.sharpness, vertices_with_faces(control.topology),
+                     corners, static_cast<Index>(primvar.values.size() / primvar.element_size)));
   }
   return control;
 }
