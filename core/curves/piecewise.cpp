@@ -267,6 +267,13 @@ Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, 
     default:
       break;
   }
+  // Of a whole curve on knots the knots tell, without a copy of its points.
+  if (curves.basis == CurveBasis::nurbs && curves.ranges.empty()) {
+    const double* const knots = curves.knots.data() + place.knots;
+    Count spans = 0;
+    for (Count k = order_of(curves, curve) - Count{1}; k < count; ++k) spans += knots[k] < knots[k + 1];
+    return count + spans * (parts - 1);
+  }
   const Result<Spline> spline = spline_of(curves, curve, place);
   return spline ? refined_point_count(*spline, level) : 0;
 }
@@ -303,11 +310,14 @@ std::vector<double> parameters_of(const Spline& spline, CurveBasis basis) {
   return ts;
 }
 
-Result<void> add_limits(const Spline& refined, const CurveOptions& options, RefinedPiecewise& all) {
+Result<void> add_limits(const Spline& refined, const CurveOptions& options, const Budget& budget,
+                        RefinedPiecewise& all) {
   if (!options.limit && !options.tangents) return {};
   const Index dimension = refined.dimension();
   std::vector<double> rows(2 * std::size_t{dimension});
+  BudgetPoller poller(budget);
   for (const double t : parameters_of(refined, all.basis)) {
+    if (auto stop = poller.spend(64)) return *stop;
     if (auto done = derivatives(refined, t, 1, rows); !done) return done;
     if (options.limit)
       all.limit_points.insert(all.limit_points.end(), rows.begin(), rows.begin() + dimension);
@@ -342,7 +352,7 @@ Result<RefinedPiecewise> refine_piecewise(const ControlCurves& curves, const Cur
       all.points.insert(all.points.end(), points->begin(), points->end());
     }
     all.vertex_counts.push_back(static_cast<Index>((all.points.size() - before) / curves.width));
-    if (auto done = add_limits(*refined, options, all); !done) return std::move(done).error();
+    if (auto done = add_limits(*refined, options, budget, all); !done) return std::move(done).error();
   }
   return all;
 }

@@ -140,6 +140,8 @@ void append_utf8(std::string& text, std::uint32_t code) {
 
 Cursor::Cursor(std::string_view text, const Budget& budget)
     : begin_(text.data()), end_(text.data() + text.size()), at_(begin_), stop_(begin_), budget_(budget) {
+  // A byte order mark is no JSON, but some editors write it.
+  if (text.starts_with("\xEF\xBB\xBF")) at_ += 3;
   poll();
 }
 
@@ -171,7 +173,6 @@ bool Cursor::fail_syntax(Path below) {
   if (at_ >= end_)
     return fail(ErrorCode::malformed, "the body ends in the middle of its JSON; is it cut short?",
                 std::move(below));
-  // A byte order mark may stand before begin_, but is no byte of the text.
   const std::string_view before(begin_, static_cast<std::size_t>(at_ - begin_));
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t newline = before.rfind('\n');

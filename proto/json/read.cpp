@@ -208,6 +208,9 @@ Result<void> read_document(std::string_view body, const Budget& budget,
   Cursor cursor(body, budget);
   const auto walk = [&] {
     const Type type = cursor.type();
+    if (type == Type::none && cursor.at_end())
+      return cursor.fail(ErrorCode::malformed,
+                         "the body is empty; it must be a JSON object, a GLB or a glTF");
     if (type != Type::object && type != Type::none)
       return cursor.fail(ErrorCode::wrong_type, "the body must be a JSON object");
     if (!cursor.open_object("an object") || !read(cursor)) return false;

@@ -48,9 +48,6 @@ class Surveyor {
   Surveyor(std::string_view body, const Budget& budget) : body_(body), budget_(budget) {}
 
   Result<Survey> look() {
-    const std::size_t first = body_.find_first_not_of(" \t\r\n");
-    result_.empty = first == std::string_view::npos;
-    result_.object = !result_.empty && body_[first] == '{';
     while (at_ < body_.size()) {
       if (auto stop = budget_.poll()) return *stop;
       const std::size_t stop = at_ + std::min(kBytesPerPoll, body_.size() - at_);

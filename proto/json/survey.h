@@ -12,8 +12,6 @@
 namespace subdivd::proto::json {
 
 struct Survey {
-  bool object = false;  // the body begins as one
-  bool empty = true;    // it holds nothing but white space
   // Of the members at the top
   bool has_asset = false;       // glTF has it, and must
   bool has_basis = false;       // of curves

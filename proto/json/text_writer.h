@@ -17,6 +17,8 @@
 
 namespace subdivd::proto::json {
 
+inline const Budget kUnlimited{};
+
 // A JSON string literal; bytes that are not UTF-8 become U+FFFD.
 std::string quoted_json(std::string_view text);
 
@@ -50,8 +52,6 @@ class TextWriter {
   std::vector<Chunk> finish();
 
  private:
-  static inline const Budget kUnlimited{};
-
   template <class Number>
   void scalar(Number value);
   template <class Number>

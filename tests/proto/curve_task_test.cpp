@@ -50,6 +50,28 @@ TEST(CurveTask, takes_one_curve_at_the_top_or_several) {
   EXPECT_EQ(refused(Kind::measure, R"({"curves":[{"points":[[0,0]]}]})"), "too_few_points /curves/0/points");
 }
 
+TEST(CurveTask, takes_the_precision_of_its_numbers_and_no_other_option) {
+  for (const Kind kind :
+       {Kind::evaluate, Kind::measure, Kind::insert_knot, Kind::remove_knot, Kind::convert}) {
+    const std::string members = kind == Kind::evaluate      ? R"("samples":{"ts":[0]})"
+                                : kind == Kind::insert_knot ? R"("insert":[1])"
+                                                            : R"("name":"n")";
+    const auto with = [&](const std::string& options) {
+      return body(kLine, members + ",\"options\":" + options);
+    };
+    EXPECT_EQ(refused(kind, with(R"({"precision":"single"})")), "accepted");
+    EXPECT_EQ(refused(kind, with("{}")), "accepted");
+    EXPECT_EQ(refused(kind, with(R"({"precision":null})")), "wrong_type /options/precision");
+    EXPECT_EQ(refused(kind, with(R"({"level":1})")), "unknown_field /options/level");
+    EXPECT_EQ(refused(kind, body(kLine, members), {{"precision", "single"}}), "accepted");
+    EXPECT_EQ(refused(kind, body(kLine, members), {{"precision", "half"}}), "bad_enum /?precision");
+    EXPECT_EQ(refused(kind, body(kLine, members), {{"level", "1"}}), "unknown_field /?level");
+    const auto request = decode_curves(body(kLine, members), kind, {{"level", "1"}}, {});
+    ASSERT_FALSE(request.ok());
+    EXPECT_NE(request.error().message.find("valid: precision"), std::string::npos) << request.error().message;
+  }
+}
+
 TEST(CurveTask, takes_the_members_of_its_kind_only) {
   EXPECT_EQ(refused(Kind::measure, body(kLine, R"("insert":[1])")), "unknown_field /insert");
   EXPECT_EQ(refused(Kind::insert_knot, body(kLine, R"("insert":[1],"flatten":1)")), "unknown_field /flatten");
@@ -57,8 +79,6 @@ TEST(CurveTask, takes_the_members_of_its_kind_only) {
             "unknown_field /tolerance");
   EXPECT_EQ(refused(Kind::insert_knot, body(kLine, "")), "missing_field /insert");
   EXPECT_EQ(refused(Kind::evaluate, body(kLine, "")), "missing_field /samples");
-  EXPECT_EQ(refused(Kind::evaluate, body(kLine, R"("samples":{"ts":[0]},"options":{})")),
-            "unknown_field /options");
   EXPECT_EQ(refused(Kind::refine, body(kLine, R"("options":{"level":1})")), "accepted");
   EXPECT_EQ(refused(Kind::refine, body(kLine, R"("samples":{"ts":[0]})")), "unknown_field /samples");
   EXPECT_EQ(refused(Kind::measure, body(kLine, ""), {{"level", "1"}}), "unknown_field /?level");

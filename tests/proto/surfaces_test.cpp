@@ -93,9 +93,9 @@ TEST(surfaces, one_degree_and_wrap_hold_for_both_directions_unless_one_has_its_o
 TEST(surfaces, refusals_point_at_what_is_wrong) {
   const std::pair<json, const char*> cases[] = {
       {with(grid(4, 3), {{"uDegree", 4}}), "out_of_range /uDegree"},
-      {with(grid(4, 3), {{"degree", 1}}), "out_of_range /uDegree"},
+      {with(grid(4, 3), {{"degree", 1}}), "out_of_range /degree"},
       {grid(1, 3), "too_few_points /uVertexCount"},
-      {with(grid(4, 3), {{"vWrap", "nonperiodic"}}), "too_few_points /vVertexCount"},
+      {with(grid(4, 3), {{"vWrap", "nonperiodic"}}), "too_few_points /points"},
       {with(grid(4, 3), {{"uWrap", "closed"}}), "bad_enum /uWrap"},
       {with(grid(4, 3), {{"knots", {0, 1}}}), "unknown_field /knots"},
       {with(grid(4, 3), {{"basis", "bspline"}}), "unknown_field /basis"},

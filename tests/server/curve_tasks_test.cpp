@@ -1,6 +1,7 @@
 // What the routes under /v1/curves compute, without a socket.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -400,6 +401,46 @@ TEST(CurveTasks, samples_of_surfaces_are_predicted_and_stopped) {
   Budget budget;
   budget.cancelled = &gone;
   EXPECT_EQ(ask(Kind::evaluate, many, budget)["code"], "cancelled");
+}
+
+TEST(CurveTasks, round_their_results_to_the_precision_that_is_asked_for) {
+  const json single = {{"options", {{"precision", "single"}}}};
+  const json evaluate = with(circle(), {{"samples", {{"ts", {0.3}}}}, {"derivatives", 1}, {"frames", true}});
+  const auto rounded = [](const json& one, const json& other) {
+    return one.get<float>() == other.get<float>() && json(one.get<float>()).dump().size() > 0 &&
+           one.dump().size() <= 13;
+  };
+  const json in_double = ask(Kind::evaluate, evaluate)["samples"];
+  const json in_single = ask(Kind::evaluate, with(evaluate, single))["samples"];
+  EXPECT_EQ(in_single["ts"], in_double["ts"]);  // a parameter, not a result
+  for (const char* name : {"points", "tangents", "normals"})
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_PRED2(rounded, in_single[name][0][k], in_double[name][0][k]) << name;
+      EXPECT_GT(in_double[name][0][k].dump().size(), 13u) << name;
+    }
+  const json length = ask(Kind::measure, circle())["measures"][0]["length"]["value"];
+  EXPECT_PRED2(rounded, ask(Kind::measure, with(circle(), single))["measures"][0]["length"]["value"], length);
+  const json convert = with(circle(), {{"range", {0.3, 2}}});
+  EXPECT_PRED2(rounded, ask(Kind::convert, with(convert, single))["curves"][0]["points"][0][0],
+               ask(Kind::convert, convert)["curves"][0]["points"][0][0]);
+}
+
+TEST(CurveTasks, measure_a_million_curves_in_linear_time_or_stop) {
+  // Every curve once looked for its points from the first on.
+  std::string points = "[0]", counts = "2";
+  for (int i = 1; i < 200000; ++i) points += ",[" + std::to_string(i % 7) + "]";
+  for (int i = 1; i < 100000; ++i) counts += ",2";
+  const std::string text =
+      "{\"points\":[" + points + "],\"curveVertexCounts\":[" + counts + "],\"degree\":1,\"convergence\":1}";
+  const auto request = proto::decode_curves(text, Kind::measure, {}, {});
+  ASSERT_TRUE(request.ok()) << request.error().message;
+  Budget budget;
+  budget.deadline = Budget::Clock::now() + std::chrono::seconds(20);
+  EXPECT_TRUE(compute_measures(*request, budget).ok());
+}
+
+TEST(CurveTasks, refuse_a_convergence_of_more_points_than_anyone_waits_for) {
+  EXPECT_EQ(ask(Kind::measure, with(cubic(), {{"convergence", 24}}))["code"], "too_large");
 }
 
 }  // namespace
