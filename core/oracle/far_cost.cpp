@@ -13,11 +13,11 @@ namespace {
 
 // See the tables in README.md. Per step of a search, per element of a mesh, per corner.
 constexpr Picoseconds kPerSearch = 350, kPerValueSearch = 100, kPerTornSearch = 1'000;
-constexpr Picoseconds kPerPoint = 60'000, kPerFace = 300'000, kPerFaceAndChannel = 150'000;
+constexpr Picoseconds kPerPoint = 70'000, kPerFace = 300'000, kPerFaceAndChannel = 150'000;
 constexpr Picoseconds kPerCrease = 30'000;
 constexpr Picoseconds kPerCrowdedCorner = 50'000, kPerDistantCorner = 1'500'000;
 constexpr Picoseconds kPerElement = 60'000, kPerElementAndChannel = 16'000;
-constexpr Picoseconds kPerQuad = 700'000;
+constexpr Picoseconds kPerQuad = 250'000;
 
 constexpr Index kNear = 64;       // difference of numbers of points that probably share cache lines
 constexpr Count kFewMembers = 6;  // what Far has room for at every point
