@@ -58,6 +58,8 @@ void RawClient::close() {
   fd_ = -1;
 }
 
+void RawClient::end_sending() { ::shutdown(fd_, SHUT_WR); }
+
 void RawClient::reset() {
   const linger hard{1, 0};
   ::setsockopt(fd_, SOL_SOCKET, SO_LINGER, &hard, sizeof hard);
@@ -98,6 +100,12 @@ RawResponse RawClient::receive(bool head_request) {
   response.complete = buffer_.size() >= length;
   response.body = buffer_.substr(0, length);
   buffer_.erase(0, length);
+  return response;
+}
+
+RawResponse RawClient::receive_final() {
+  RawResponse response = receive();
+  while (response.status >= 100 && response.status < 200) response = receive();
   return response;
 }
 

@@ -29,9 +29,11 @@ class RawClient {
 
   bool send(std::string_view bytes);  // false once the server has closed
   RawResponse receive(bool head_request = false);
+  RawResponse receive_final();                             // skips interim responses
   bool closed_within(std::chrono::milliseconds patience);  // by the server, cleanly or not
   void close();
-  void reset();  // closes with a RST
+  void end_sending();  // and goes on reading
+  void reset();        // closes with a RST
 
  private:
   bool more();
