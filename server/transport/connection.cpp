@@ -50,7 +50,14 @@ Refusal fault_of(HeadScan::Verdict verdict) {
 
 }  // namespace
 
-Refusal overloaded(const char* detail) { return {503, "overloaded", detail}; }
+Refusal overloaded(const char* detail) noexcept {
+  Refusal refusal{503, "overloaded", {}};
+  try {
+    refusal.detail = detail;
+  } catch (const std::bad_alloc&) {
+  }
+  return refusal;
+}
 
 void Connection::begin_turn() {
   turn_ = std::make_unique<Turn>();

@@ -33,8 +33,9 @@ struct Turn {
   bool wants_body() const { return !refusal && head.has_body(); }
 };
 
-// For want of memory: worded by whoever has some, and sent as it is by whoever has none.
-Refusal overloaded(const char* detail);
+// A refusal for want of memory or threads; without its detail when memory is out.
+Refusal overloaded(const char* detail) noexcept;
+// The answer when there is no memory for any other.
 inline constexpr std::string_view kBareOverloaded =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
@@ -52,8 +53,8 @@ class Connection {
 
   // Reads on, without waiting, what has arrived. Throws when memory is out.
   Progress read_head();
-  // Gives up on a head that is not complete.
-  void refuse(Refusal refusal) { turn_->refusal = std::move(refusal); }
+  // Gives up on a request that has begun.
+  void refuse(Refusal refusal) noexcept { turn_->refusal = std::move(refusal); }
   Turn& turn() { return *turn_; }
   // The request is answered: the next one begins.
   void end_turn();

@@ -8,8 +8,9 @@ namespace {
 // With the buffers of their heads this many take at most 32 MiB.
 constexpr std::size_t kMostWaiting = 1024;
 
-// The refusal is worded in a few bytes: it is needed when there is little of anything.
-void refuse(Connection& connection) { connection.refuse(overloaded("busy")); }
+void refuse(Connection& connection) {
+  connection.refuse(overloaded("no thread was free for this request in time"));
+}
 
 }  // namespace
 

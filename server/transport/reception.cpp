@@ -93,6 +93,7 @@ std::chrono::milliseconds Reception::patience(Phase phase) const {
 // ---- the lists ----
 
 void Reception::await_request(Connections one, bool head_begun) {
+  if (!head_begun) one.front()->socket().trim_buffer();
   add(std::move(one), head_begun ? Phase::head : Phase::idle);
 }
 
@@ -162,6 +163,8 @@ void Reception::run() {
     const int wait = milliseconds_to_wait();
     if (wait < 0) return;
     const int count = ::epoll_wait(epoll_, events.data(), kEvents, wait);
+    // Whoever armed a connection has the lock, so all it did before is seen from here on.
+    { const std::lock_guard lock(mutex_); }
     bool someone_knocks = !listening_;
     for (int i = 0; i < count; ++i) {
       void* const source = events[static_cast<std::size_t>(i)].data.ptr;
@@ -253,14 +256,22 @@ void Reception::close_overdue() {
         end_waiting(*first);
         continue;
       }
-      const Connection::Progress progress = read_head(*first);
-      disarm(*first);
-      Connections one = take(*first);
-      if (progress == Connection::Progress::closed) continue;
-      if (progress == Connection::Progress::begun)
-        first->refuse({408, "request_timeout", "the head of the request did not arrive in time"});
-      lanes_.push(std::move(one));
+      end_head(*first);
     }
+  }
+}
+
+// A head that has not come in time is refused.
+void Reception::end_head(Connection& connection) {
+  const Connection::Progress progress = read_head(connection);
+  disarm(connection);
+  Connections one = take(connection);
+  if (progress == Connection::Progress::closed) return;
+  try {
+    if (progress == Connection::Progress::begun)
+      connection.refuse({408, "request_timeout", "the head of the request did not arrive in time"});
+    lanes_.push(std::move(one));
+  } catch (const std::bad_alloc&) {  // then it ends without a word
   }
 }
 
@@ -278,8 +289,10 @@ void Reception::listen(bool on) {
 
 void Reception::accept_some() {
   for (int i = 0; i < kAcceptedAtOnce; ++i) {
-    const bool full = census_.connections() >= limits_.connections;
-    if (full && listener_->someone_waits() && !make_room()) return listen(false);
+    if (census_.connections() >= limits_.connections) {
+      if (!listener_->someone_waits()) break;
+      if (!make_room()) return listen(false);
+    }
     const int fd = listener_->accept_now();
     if (fd == Listener::kNone) break;
     if (fd >= 0)

@@ -69,6 +69,7 @@ class Reception {
   Connection::Progress read_head(Connection& connection);
   void close_overdue();
   bool end_waiting(Connection& connection);
+  void end_head(Connection& connection);
   void close_idle();
 
   void add(Connections one, Phase phase);

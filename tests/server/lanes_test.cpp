@@ -96,7 +96,7 @@ TEST(Lanes, refuses_who_has_waited_for_too_long) {
   ASSERT_TRUE(eventually([&] { return server.service.waiting == 2; }));
   const RawResponse response = ask(server.port, post("/a", "x"));
   EXPECT_EQ(response.status, 503);
-  EXPECT_EQ(response.body, "overloaded: busy");
+  EXPECT_EQ(response.body, "overloaded: no thread was free for this request in time");
   server.service.let_go = true;
 }
 TEST(Lanes, lets_a_pipeline_not_pass_others_that_wait) {

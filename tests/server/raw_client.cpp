@@ -40,7 +40,11 @@ void parse_fields(std::string_view head, RawResponse& response) {
 
 }  // namespace
 
-RawClient::RawClient(int port, int receive_buffer) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+RawClient::RawClient() : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {}
+
+RawClient::RawClient(int port, int receive_buffer) : RawClient() { connect(port, receive_buffer); }
+
+void RawClient::connect(int port, int receive_buffer) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<in_port_t>(port));

@@ -22,11 +22,13 @@ struct RawResponse {
 
 class RawClient {
  public:
+  RawClient();                                           // with a descriptor, not yet connected
   explicit RawClient(int port, int receive_buffer = 0);  // 0: the system's size
   ~RawClient();
   RawClient(const RawClient&) = delete;
   RawClient& operator=(const RawClient&) = delete;
 
+  void connect(int port, int receive_buffer = 0);
   bool send(std::string_view bytes);  // false once the server has closed
   RawResponse receive(bool head_request = false);
   RawResponse receive_final();                             // skips interim responses

@@ -1,5 +1,7 @@
 // Connections that nobody works on: silent, slow, idle ones, and too many of them.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <memory>
 #include <vector>
@@ -136,6 +138,35 @@ TEST(Reception, survives_a_flood_of_connections) {
   const Clients flood = silent_clients(server.port, 600);
   EXPECT_EQ(ask(server.port, get("/a")).status, 200);
   EXPECT_LE(server.transport.state().connections, 200u);
+}
+// Lets the process have a few descriptors more than it has now, as long as it lives.
+class FewDescriptors {
+ public:
+  explicit FewDescriptors(rlim_t more) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const int next = ::dup(STDERR_FILENO);
+    ::close(next);
+    rlimit few = before_;
+    few.rlim_cur = static_cast<rlim_t>(next) + more;
+    ::setrlimit(RLIMIT_NOFILE, &few);
+  }
+  ~FewDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  FewDescriptors(const FewDescriptors&) = delete;
+  FewDescriptors& operator=(const FewDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Reception, makes_room_when_descriptors_are_out) {
+  const RunningTransport server(patient_options());
+  Clients clients;
+  for (int i = 0; i < 10; ++i) clients.push_back(std::make_unique<RawClient>());
+  const FewDescriptors few(3);
+  for (const auto& client : clients) client->connect(server.port);
+  EXPECT_TRUE(is_open(*clients.back()));
+  EXPECT_TRUE(clients.front()->closed_within(milliseconds(5000)));
+  EXPECT_LE(server.transport.state().connections, 3u);
 }
 TEST(Reception, closes_the_idle_at_once_when_it_drains) {
   RunningTransport server(patient_options());

@@ -221,12 +221,16 @@ TEST(Transport, cancels_what_still_runs_when_it_stops) {
 }
 TEST(Transport, records_every_response) {
   RunningTransport server;
+  const auto recorded = [&](const std::vector<int>& statuses) {
+    return eventually([&] {
+      const std::lock_guard lock(server.service.mutex);
+      return server.service.statuses == statuses;
+    });
+  };
   ask(server.port, get("/a"));
+  EXPECT_TRUE(recorded({200}));
   ask(server.port, "nonsense\r\n\r\n");
-  EXPECT_TRUE(eventually([&] {
-    const std::lock_guard lock(server.service.mutex);
-    return server.service.statuses == std::vector<int>{200, 400};
-  }));
+  EXPECT_TRUE(recorded({200, 400}));
 }
 
 }  // namespace
