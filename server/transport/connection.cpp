@@ -110,6 +110,10 @@ void Connection::end_turn() {
   scan_ = HeadScan();
   blank_bytes_ = 0;
   ++answered_;
+  trim_buffer();
+}
+
+void Connection::trim_buffer() {
   if (socket_.buffer_bytes() <= kFreeBuffer) return;
   try {
     socket_.trim_buffer();

@@ -56,6 +56,8 @@ class Connection {
   // Gives up on a request that has begun.
   void refuse(Refusal refusal) noexcept { turn_->refusal = std::move(refusal); }
   Turn& turn() { return *turn_; }
+  // Gives back the memory of a large buffer, but for what is still in it.
+  void trim_buffer();
   // The request is answered: the next one begins.
   void end_turn();
   std::size_t answered() const { return answered_; }

@@ -117,6 +117,7 @@ Response Worker::respond(Connection& connection, BodyBuffer& buffer, bool& body_
     }
     body_left = false;
   }
+  connection.trim_buffer();
   return answer_safely(turn, request);
 }
 

@@ -26,11 +26,14 @@ Clients silent_clients(int port, int count) {
   return clients;
 }
 
-Clients idle_clients(int port, int count) {
-  Clients clients = silent_clients(port, count);
-  for (auto& client : clients) {
-    client->send(get("/a"));
-    EXPECT_EQ(client->receive().status, 200);
+// Idle in this order.
+Clients idle_clients(const RunningTransport& server, std::size_t count) {
+  Clients clients;
+  while (clients.size() < count) {
+    clients.push_back(std::make_unique<RawClient>(server.port));
+    clients.back()->send(get("/a"));
+    EXPECT_EQ(clients.back()->receive().status, 200);
+    EXPECT_TRUE(eventually([&] { return server.transport.state().idle == clients.size(); }));
   }
   return clients;
 }
@@ -45,7 +48,7 @@ TEST(Reception, spends_no_thread_on_the_silent_the_slow_and_the_idle) {
   options.threads = 1;
   const RunningTransport server(options);
   const Clients silent = silent_clients(server.port, 50), slow = silent_clients(server.port, 50),
-                idle = idle_clients(server.port, 50);
+                idle = idle_clients(server, 50);
   for (const auto& client : slow) client->send("GET / HTTP/1.1\r\nHo");
   EXPECT_EQ(ask(server.port, get("/a")).status, 200);
   EXPECT_TRUE(eventually([&] {
@@ -96,7 +99,7 @@ TEST(Reception, closes_the_longest_silent_connection_when_it_is_full) {
   TransportOptions options = patient_options();
   options.max_connections = 4;
   const RunningTransport server(options);
-  const Clients idle = idle_clients(server.port, 2), silent = silent_clients(server.port, 2);
+  const Clients idle = idle_clients(server, 2), silent = silent_clients(server.port, 2);
   ASSERT_TRUE(eventually([&] { return server.transport.state().silent == 2; }));
   RawClient another(server.port);
   EXPECT_TRUE(is_open(another));
@@ -107,7 +110,7 @@ TEST(Reception, closes_the_longest_idle_connection_when_it_is_full) {
   TransportOptions options = patient_options();
   options.max_connections = 3;
   const RunningTransport server(options);
-  const Clients idle = idle_clients(server.port, 3);
+  const Clients idle = idle_clients(server, 3);
   EXPECT_TRUE(is_open(*idle[0]));
   ASSERT_TRUE(eventually([&] { return server.transport.state().idle == 3; }));
   RawClient another(server.port);
@@ -170,7 +173,7 @@ TEST(Reception, makes_room_when_descriptors_are_out) {
 }
 TEST(Reception, closes_the_idle_at_once_when_it_drains) {
   RunningTransport server(patient_options());
-  const Clients idle = idle_clients(server.port, 300);
+  const Clients idle = idle_clients(server, 300);
   server.transport.begin_drain();
   EXPECT_TRUE(server.transport.wait_until_idle(milliseconds(5000)));
   EXPECT_TRUE(eventually([&] { return server.transport.state().connections == 0; }));
