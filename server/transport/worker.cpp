@@ -118,7 +118,7 @@ Response Worker::respond(Connection& connection, BodyBuffer& buffer, bool& body_
     body_left = false;
   }
   connection.trim_buffer();
-  return answer_safely(turn, request);
+  return answer_safely(turn, request, buffer);
 }
 
 std::optional<Response> Worker::screen_safely(const Request& request) {
@@ -129,11 +129,12 @@ std::optional<Response> Worker::screen_safely(const Request& request) {
   }
 }
 
-Response Worker::answer_safely(const Turn& turn, Request& request) {
+Response Worker::answer_safely(const Turn& turn, Request& request, BodyBuffer& buffer) {
   const Watching watching(post_, turn.head.minor_version >= 1);
   try {
     return context_.service.answer(request);
   } catch (...) {
+    buffer.release();  // words need memory, too
     return refuse_safely(request, refusal_of_exception());
   }
 }
@@ -145,6 +146,7 @@ Response Worker::refuse_safely(const Request& request, const Refusal& refusal) {
     Response bare;
     bare.status = refusal.status;
     bare.close = true;
+    if (bare.status == 503) bare.headers.emplace_back("Retry-After", "1");
     return bare;
   }
 }

@@ -46,7 +46,7 @@ class Worker {
 
   // The service's answers, whatever it throws.
   std::optional<Response> screen_safely(const Request& request);
-  Response answer_safely(const Turn& turn, Request& request);
+  Response answer_safely(const Turn& turn, Request& request, BodyBuffer& buffer);
   Response refuse_safely(const Request& request, const Refusal& refusal);
   void record_safely(const Exchange& exchange);
 

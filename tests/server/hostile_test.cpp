@@ -127,6 +127,26 @@ TEST(Hostile, refuses_bodies_that_would_fill_the_memory_for_all) {
   EXPECT_EQ(ask(server.port, post("/size", std::string(60'000, 'x'))).status, 503);
   EXPECT_EQ(ask(server.port, post("/size", std::string(40'000, 'x'))).status, 200);
 }
+TEST(Hostile, refuses_a_head_that_would_fill_the_memory_for_all) {
+  const RunningTransport server(quick_options(), 6'000);
+  EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(20'000, 'x') + "\r\n")).status, 503);
+  EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(2'000, 'x') + "\r\n")).status, 200);
+}
+TEST(Hostile, reserves_a_body_whole_before_it_comes) {
+  TransportOptions options = quick_options();
+  options.read_timeout = std::chrono::minutes(10);
+  const RunningTransport server(options, 70'000);
+  RawClient slow(server.port);
+  slow.send("POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 50000\r\n\r\nabc");
+  ASSERT_TRUE(eventually([&] {
+    const Transport::State state = server.transport.state();
+    return state.requests == 1 && state.waiting == 0 && state.heads == 0;
+  }));
+  EXPECT_TRUE(
+      eventually([&] { return ask(server.port, post("/size", std::string(50'000, 'x'))).status == 503; }));
+  slow.send(std::string(49'997, 'x'));
+  EXPECT_EQ(slow.receive().body, "50000");
+}
 TEST(Hostile, gives_buffer_memory_back) {
   const RunningTransport server(quick_options(), 60'000);
   for (int i = 0; i < 5; ++i)
@@ -208,7 +228,9 @@ TEST(Hostile, says_503_when_a_handler_runs_out_of_memory_or_threads) {
 TEST(Hostile, says_503_when_there_is_no_memory_for_words) {
   RunningTransport server;
   server.service.refuse_throws = true;
-  EXPECT_EQ(ask(server.port, get("/no-memory")).status, 503);
+  const RawResponse response = ask(server.port, get("/no-memory"));
+  EXPECT_EQ(response.status, 503);
+  EXPECT_EQ(response.header("retry-after"), "1");
   EXPECT_TRUE(alive(server));
 }
 TEST(Hostile, survives_a_screen_that_throws) {
