@@ -117,6 +117,10 @@ std::optional<Response> Application::screen_plainly(const Request& head) {
   return screen_body(head);
 }
 
+Lane Application::lane(const Request& head) {
+  return head.path == "/livez" || head.path == "/readyz" ? Lane::health : Lane::general;
+}
+
 std::optional<Response> Application::screen(const Request& head) {
   auto response = screen_plainly(head);
   if (response) return finished(head, *std::move(response));

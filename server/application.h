@@ -23,6 +23,7 @@ class Application final : public Service {
   // From now on /readyz says no and new work is refused.
   void begin_drain() { draining_ = true; }
 
+  Lane lane(const Request& head) override;
   std::optional<Response> screen(const Request& head) override;
   Response answer(Request& request) override;
   Response refuse(const Request& request, const Refusal& refusal) override;

@@ -32,6 +32,7 @@ TransportOptions transport_options(const Config& config) {
   options.host = config.host;
   options.port = config.port;
   options.threads = config.threads;
+  options.max_connections = config.max_connections;
   options.max_body_bytes = config.max_body_bytes;
   options.read_timeout = milliseconds(config.read_timeout);
   options.idle_timeout = milliseconds(config.idle_timeout);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/mesh/edges.h"
 #include "core/refine/split.h"
 
@@ -161,8 +162,9 @@ Error too_long(std::string message, Path where, Picoseconds time) {
 Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget) {
   const auto offsets = corner_offsets(mesh, budget);
   if (!offsets) return offsets.error();
-  const auto edges =
-      find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, *offsets, budget);
+  const auto edges = stoppable(budget, [&](const Pace& pace) {
+    return find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, *offsets, pace);
+  });
   if (!edges) return edges.error();
   return LoadFinder(mesh, *offsets, *edges, budget).run();
 }

@@ -12,9 +12,8 @@
 namespace subdivd::server {
 namespace {
 
-constexpr std::chrono::milliseconds kSlice{50};
-constexpr std::chrono::milliseconds kLingerTime{1000};
-constexpr std::size_t kReadBytes = 64 * 1024;
+constexpr std::size_t kReadBytes = 32 * 1024;
+constexpr std::size_t kDiscardBytes = 256 * 1024;
 
 int milliseconds_until(Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
@@ -42,7 +41,12 @@ void ClientSocket::consume(std::size_t bytes) {
   consumed_ = 0;
 }
 
-ClientSocket::Outcome ClientSocket::wait_for(short event, Clock::time_point deadline) {
+void ClientSocket::trim_buffer() {
+  std::string(buffered()).swap(buffer_);
+  consumed_ = 0;
+}
+
+ClientSocket::Outcome ClientSocket::wait_for(short event, Clock::time_point deadline) const {
   for (;;) {
     pollfd entry{fd_, event, 0};
     const int ready = ::poll(&entry, 1, milliseconds_until(deadline));
@@ -52,19 +56,11 @@ ClientSocket::Outcome ClientSocket::wait_for(short event, Clock::time_point dead
   }
 }
 
-ClientSocket::Outcome ClientSocket::wait(Clock::time_point deadline, const std::function<bool()>& give_up) {
-  while (buffered().empty()) {
-    const Outcome outcome = wait_for(POLLIN, std::min(deadline, Clock::now() + kSlice));
-    if (outcome == Outcome::ready) return fill(deadline);
-    if (outcome == Outcome::closed) return outcome;
-    if (give_up()) return Outcome::given_up;
-    if (Clock::now() >= deadline) return Outcome::timed_out;
-  }
-  return Outcome::ready;
+ClientSocket::Outcome ClientSocket::wait_readable(Clock::time_point deadline) const {
+  return wait_for(POLLIN, deadline);
 }
 
-ClientSocket::Outcome ClientSocket::receive(char* to, std::size_t size, Clock::time_point deadline,
-                                            std::size_t& received) {
+ClientSocket::Outcome ClientSocket::receive_now(char* to, std::size_t size, std::size_t& received) const {
   for (;;) {
     const ssize_t got = ::recv(fd_, to, size, 0);
     if (got > 0) {
@@ -73,40 +69,48 @@ ClientSocket::Outcome ClientSocket::receive(char* to, std::size_t size, Clock::t
     }
     if (got == 0) return Outcome::closed;
     if (errno == EINTR) continue;
-    if (errno != EAGAIN && errno != EWOULDBLOCK) return Outcome::closed;
-    if (const Outcome outcome = wait_for(POLLIN, deadline); outcome != Outcome::ready) return outcome;
+    return errno == EAGAIN || errno == EWOULDBLOCK ? Outcome::would_block : Outcome::closed;
   }
 }
 
-ClientSocket::Outcome ClientSocket::fill(Clock::time_point deadline) {
+ClientSocket::Outcome ClientSocket::fill_now(std::size_t most) {
+  char arrived[kReadBytes];  // so that the buffer is never larger than what came
+  std::size_t received = 0;
+  const Outcome outcome = receive_now(arrived, std::min(most, kReadBytes), received);
+  if (outcome != Outcome::ready) return outcome;
   buffer_.erase(0, consumed_);
   consumed_ = 0;
-  const std::size_t before = buffer_.size();
-  buffer_.resize(before + kReadBytes);
-  std::size_t received = 0;
-  const Outcome outcome = receive(buffer_.data() + before, kReadBytes, deadline, received);
-  buffer_.resize(before + received);
+  buffer_.append(arrived, received);
   return outcome;
 }
 
-std::size_t ClientSocket::read(char* to, std::size_t size, Clock::time_point deadline) {
-  if (buffered().empty()) {
-    std::size_t received = 0;
-    if (size >= kReadBytes) return receive(to, size, deadline, received) == Outcome::ready ? received : 0;
-    if (fill(deadline) != Outcome::ready) return 0;
+ClientSocket::Outcome ClientSocket::fill(std::size_t most, Clock::time_point deadline) {
+  for (;;) {
+    if (const Outcome outcome = fill_now(most); outcome != Outcome::would_block) return outcome;
+    if (const Outcome outcome = wait_readable(deadline); outcome != Outcome::ready) return outcome;
   }
-  const std::size_t count = std::min(size, buffered().size());
-  buffered().copy(to, count);
-  consume(count);
-  return count;
 }
 
-bool ClientSocket::write(const char* data, std::size_t size, Pace& pace) {
-  while (size > 0) {
-    const ssize_t sent = ::send(fd_, data, size, MSG_NOSIGNAL);
+std::size_t ClientSocket::read(char* to, std::size_t size, Clock::time_point deadline) {
+  if (!buffered().empty()) {
+    const std::size_t count = buffered().copy(to, size);
+    consume(count);
+    return count;
+  }
+  for (;;) {
+    std::size_t received = 0;
+    const Outcome outcome = receive_now(to, size, received);
+    if (outcome == Outcome::ready) return received;
+    if (outcome != Outcome::would_block || wait_readable(deadline) != Outcome::ready) return 0;
+  }
+}
+
+bool ClientSocket::write(std::string_view data, Pace& pace, bool more) {
+  const int flags = MSG_NOSIGNAL | (more ? MSG_MORE : 0);
+  while (!data.empty()) {
+    const ssize_t sent = ::send(fd_, data.data(), data.size(), flags);
     if (sent >= 0) {
-      data += sent;
-      size -= static_cast<std::size_t>(sent);
+      data.remove_prefix(static_cast<std::size_t>(sent));
       pace.moved(static_cast<std::size_t>(sent));
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       if (wait_for(POLLOUT, pace.deadline()) != Outcome::ready) return false;
@@ -117,14 +121,25 @@ bool ClientSocket::write(const char* data, std::size_t size, Pace& pace) {
   return true;
 }
 
-void ClientSocket::linger() {
-  ::shutdown(fd_, SHUT_WR);
-  const Clock::time_point deadline = Clock::now() + kLingerTime;
-  std::array<char, 16 * 1024> discarded{};
-  std::size_t received = 0;
-  while (Clock::now() < deadline &&
-         receive(discarded.data(), discarded.size(), deadline, received) == Outcome::ready) {
-  }
+void ClientSocket::write_now(std::string_view data) const {
+  [[maybe_unused]] const ssize_t sent = ::send(fd_, data.data(), data.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
+bool ClientSocket::holds_unread() const {
+  char byte = 0;
+  return !buffered().empty() || ::recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
+}
+
+void ClientSocket::end_sending() const { ::shutdown(fd_, SHUT_WR); }
+
+ClientSocket::Outcome ClientSocket::discard_now() {
+  std::string().swap(buffer_);
+  consumed_ = 0;
+  // With MSG_TRUNC the kernel drops the bytes instead of copying them.
+  const ssize_t got = ::recv(fd_, nullptr, kDiscardBytes, MSG_TRUNC | MSG_DONTWAIT);
+  if (got > 0) return Outcome::ready;
+  return got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) ? Outcome::would_block
+                                                                                : Outcome::closed;
 }
 
 }  // namespace subdivd::server

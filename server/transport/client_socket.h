@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -28,7 +27,7 @@ class Pace {
 
 class ClientSocket {
  public:
-  enum class Outcome { ready, closed, timed_out, given_up };
+  enum class Outcome { ready, would_block, closed, timed_out };
 
   // Takes ownership of a non-blocking socket.
   explicit ClientSocket(int fd) : fd_(fd) {}
@@ -42,23 +41,36 @@ class ClientSocket {
   // What has arrived and was not consumed yet.
   std::string_view buffered() const { return std::string_view(buffer_).substr(consumed_); }
   void consume(std::size_t bytes);
+  std::size_t buffer_bytes() const { return buffer_.capacity(); }
+  // Gives the memory back that no buffered byte needs.
+  void trim_buffer();
 
-  // Waits until something is buffered; asks `give_up` every 50 ms.
-  Outcome wait(Clock::time_point deadline, const std::function<bool()>& give_up);
-  // Adds to the buffer what the wire holds, at least a byte.
-  Outcome fill(Clock::time_point deadline);
+  // Adds to the buffer what has arrived, up to `most` bytes (and 32 KiB), without waiting. `ready`: at least
+  // a byte; all of it unless the buffer grew by `most`.
+  Outcome fill_now(std::size_t most);
+  // As fill_now, but waits for a byte.
+  Outcome fill(std::size_t most, Clock::time_point deadline);
+  // Waits for a byte (or the end) without reading it.
+  Outcome wait_readable(Clock::time_point deadline) const;
   // Moves up to `size` bytes (size > 0) from the buffer, or else the wire; 0: closed or out of time.
   std::size_t read(char* to, std::size_t size, Clock::time_point deadline);
-  // Sends everything; false when the client is gone or too slow.
-  bool write(const char* data, std::size_t size, Pace& pace);
 
-  // Ends the connection after a response that left input unread: closing at once would make the kernel send
-  // a reset, which can destroy the response before the client has read it.
-  void linger();
+  // Sends everything; false when the client is gone or too slow. `more` follows at once: it may travel along.
+  bool write(std::string_view data, Pace& pace, bool more = false);
+  // Sends what the kernel takes at once.
+  void write_now(std::string_view data) const;
+
+  // Has the client sent something that nobody has read?
+  bool holds_unread() const;
+  // Ends our side. Closing at once while input is unread would make the kernel send a reset, which can
+  // destroy the response before the client has read it.
+  void end_sending() const;
+  // Throws away what has arrived; closed: the client has ended its side, too.
+  Outcome discard_now();
 
  private:
-  Outcome wait_for(short event, Clock::time_point deadline);
-  Outcome receive(char* to, std::size_t size, Clock::time_point deadline, std::size_t& received);
+  Outcome wait_for(short event, Clock::time_point deadline) const;
+  Outcome receive_now(char* to, std::size_t size, std::size_t& received) const;
 
   int fd_;
   std::string buffer_;

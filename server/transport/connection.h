@@ -1,90 +1,93 @@
 #pragma once
-// The life of one connection: head, judgement, body, answer, and again while it is kept alive.
+// A connection, and the request that it is about to make.
+//
+// Connections travel between the reception, the lanes and the workers as the one element of a list. Passing
+// one on is a splice, so it cannot fail for want of memory, and whoever drops the list closes the connection.
 
-#include <atomic>
-#include <condition_variable>
-#include <functional>
-#include <mutex>
+#include <cstddef>
+#include <list>
+#include <memory>
 #include <optional>
-#include <string>
 
+#include "server/transport/census.h"
 #include "server/transport/client_socket.h"
-#include "server/transport/engine.h"
 #include "server/transport/head.h"
+#include "server/transport/head_scan.h"
+#include "server/transport/message.h"
 #include "server/transport/quota.h"
 #include "server/transport/service.h"
-#include "server/transport/transport.h"
-#include "server/transport/watcher.h"
 
 namespace subdivd::server {
 
-// How many requests are being read, answered or sent.
-class BusyCount {
- public:
-  void enter() {
-    const std::lock_guard lock(mutex_);
-    ++count_;
-  }
-  void leave() {
-    const std::lock_guard lock(mutex_);
-    --count_;
-    changed_.notify_all();
-  }
-  bool wait_until_zero(Clock::time_point deadline) {
-    std::unique_lock lock(mutex_);
-    return changed_.wait_until(lock, deadline, [this] { return count_ == 0; });
-  }
+class Connection;
+using Connections = std::list<std::unique_ptr<Connection>>;
 
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int count_ = 0;
+// One request, from its first byte to the last of its answer.
+struct Turn {
+  Request request;                 // of an unreadable head only the peer is known
+  Head head;                       // without the parts that went into `request`
+  std::optional<Refusal> refusal;  // what the head alone earned
+  Census::Counted counted;
+
+  // Does a body have to be read before it can be answered?
+  bool wants_body() const { return !refusal && head.has_body(); }
 };
 
-// What all connections share.
-struct ConnectionContext {
-  const TransportOptions& options;
-  Service& service;
-  Watcher& watcher;
-  Quota& memory;
-  BusyCount& busy;
-  const std::atomic<bool>& draining;
-  std::function<bool()> others_wait;  // are there connections without a thread?
-};
+// A refusal for want of memory or threads; without its detail when memory is out.
+Refusal overloaded(const char* detail) noexcept;
+// The answer when there is no memory for any other.
+inline constexpr std::string_view kBareOverloaded =
+    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
 class Connection {
  public:
-  Connection(int fd, Engine& engine, const ConnectionContext& context);
-  void serve();
-
- private:
-  enum class ReadHead { complete, refused, closed };
-
-  struct Turn {  // one request
-    Request request;
-    Head head;
-    std::optional<Response> early;  // what the head alone earned it
-    bool body_left = false;         // does the wire still hold some of the request?
+  enum class Progress {
+    nothing,   // not a byte of a request has come
+    begun,     // a head that is not complete
+    complete,  // turn() can be answered
+    closed     // by the client, before a head was complete
   };
 
-  bool wait_for_request(bool first);
-  bool serve_one(bool last);  // false: the connection ends
-  bool begin(Turn& turn);
-  ReadHead read_head(std::string& text, Refusal& refusal);
-  std::optional<Refusal> understand(const std::string& text, Head& head, Request& request) const;
-  std::optional<Refusal> read_body(const BodyReader& reader, Turn& turn, Quota::Lease& lease) const;
-  Response answer_with_body(const BodyReader& reader, Turn& turn);
+  Connection(int fd, Quota& memory, Census& census)
+      : socket_(fd), census_(census), counted_(census.connection()), buffer_memory_(memory) {}
 
-  // The service's answers, whatever it throws.
-  std::optional<Response> screen_safely(const Request& request);
-  Response answer_safely(Request& request);
-  Response refuse_safely(const Request& request, const Refusal& refusal);
-  void record_safely(const Exchange& exchange);
+  // Reads on, without waiting, what has arrived. Throws when memory is out.
+  Progress read_head();
+  // Gives up on a request that has begun.
+  void refuse(Refusal refusal) noexcept { turn_->refusal = std::move(refusal); }
+  Turn& turn() { return *turn_; }
+  // Gives back the memory of a large buffer, but for what is still in it.
+  void trim_buffer();
+  // The request is answered: the next one begins.
+  void end_turn();
+  std::size_t answered() const { return answered_; }
 
-  Engine& engine_;
-  const ConnectionContext& context_;
+  ClientSocket& socket() { return socket_; }
+
+  // Where the reception keeps it; nobody else's business.
+  enum class Phase { silent, head, idle, lingering };
+  struct Place {
+    Phase phase = Phase::silent;
+    Clock::time_point since{};
+    Connections::iterator at{};
+    bool registered = false;  // with epoll
+  };
+  Place place;
+  Clock::time_point queued{};  // when a lane took it
+
+ private:
+  Progress judge();
+  void begin_turn();
+  bool pay_for_buffer();
+
   ClientSocket socket_;
-  Watcher::Entry entry_;
+  Census& census_;
+  Census::Counted counted_;
+  Quota::Lease buffer_memory_;
+  HeadScan scan_;
+  std::unique_ptr<Turn> turn_;
+  std::size_t answered_ = 0;
+  std::size_t blank_bytes_ = 0;
 };
 
 }  // namespace subdivd::server

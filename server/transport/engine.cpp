@@ -4,34 +4,23 @@
 #include <array>
 #include <ctime>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace subdivd::server {
 namespace {
 
-// A chunk's size line is read byte by byte into memory; nobody needs one longer than this.
-constexpr std::size_t kMaxChunkLine = 256;
 constexpr std::size_t kSendBytes = 1 << 20;
+// A small body travels with its head.
+constexpr std::size_t kJoinedBytes = 16 * 1024;
 
-// The head that httplib reads in place of the client's.
-std::string plain_head(const Head& head, bool with_body) {
-  std::string text = with_body ? "POST" : head.method == "HEAD" ? "HEAD" : "GET";
-  text += " / HTTP/1.1\r\n";
-  if (with_body) {
-    if (head.framing == Head::Framing::chunked)
-      text += "Transfer-Encoding: chunked\r\n";
-    else
-      text += "Content-Length: " + std::to_string(head.content_length) + "\r\n";
-    if (head.expects_continue) text += "Expect: 100-continue\r\n";
-  }
-  return text + "\r\n";
-}
-
-// First the plain head, then the connection.
+// Reads the head that stands for the client's, writes to the client.
 class EngineStream final : public httplib::Stream {
  public:
-  EngineStream(ClientSocket& socket, std::string head, std::chrono::milliseconds patience)
-      : socket_(socket), head_(std::move(head)), patience_(patience), in_(patience), out_(patience) {}
+  EngineStream(ClientSocket& socket, std::string_view head, bool body_follows,
+               std::chrono::milliseconds patience)
+      : socket_(socket), head_(head), body_follows_(body_follows), pace_(patience) {}
 
   bool is_readable() const override { return true; }
   bool is_writable() const override { return true; }
@@ -40,42 +29,39 @@ class EngineStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string&, int&) const override {}
 
   ssize_t read(char* to, size_t size) override {
-    if (given_ < head_.size()) {
-      const std::size_t count = head_.copy(to, size, given_);
-      given_ += count;
-      return static_cast<ssize_t>(count);
-    }
-    if (!started_) in_ = Pace(patience_);
-    started_ = true;
-    const std::size_t count = socket_.read(to, size, in_.deadline());
-    in_.moved(count);
-    return count == 0 || endless_line(*to, size) ? -1 : static_cast<ssize_t>(count);
+    const std::size_t count = head_.copy(to, size);
+    head_.remove_prefix(count);
+    return count == 0 ? -1 : static_cast<ssize_t>(count);
   }
 
+  // httplib writes the response's head in one piece, then the body.
   ssize_t write(const char* data, size_t size) override {
-    if (!answering_) out_ = Pace(patience_);
-    answering_ = true;
-    return socket_.write(data, size, out_) ? static_cast<ssize_t>(size) : -1;
+    const std::string_view piece(data, size);
+    if (!begun_ && body_follows_ && held_.empty()) {
+      held_ = piece;
+      return static_cast<ssize_t>(size);
+    }
+    begun_ = true;
+    bool sent = true;
+    if (!held_.empty() && size <= kJoinedBytes) {
+      held_ += piece;
+      sent = socket_.write(held_, pace_);
+    } else {
+      sent = (held_.empty() || socket_.write(held_, pace_, true)) && socket_.write(piece, pace_);
+    }
+    held_.clear();
+    return sent ? static_cast<ssize_t>(size) : -1;
   }
 
-  // The time for sending starts with the response, not with "100 Continue".
-  void begin_answer() { answering_ = false; }
+  bool begun() const { return begun_; }
 
  private:
-  // httplib asks for single bytes while it reads a chunk's size line, which has no limit in it: "1;aaaa…"
-  // would grow its buffer for as long as the client cares to send.
-  bool endless_line(char byte, std::size_t asked) {
-    line_bytes_ = asked == 1 && byte != '\n' ? line_bytes_ + 1 : 0;
-    return line_bytes_ > kMaxChunkLine;
-  }
-
   ClientSocket& socket_;
-  const std::string head_;
-  const std::chrono::milliseconds patience_;
-  std::size_t given_ = 0;
-  std::size_t line_bytes_ = 0;
-  bool started_ = false, answering_ = false;
-  Pace in_, out_;
+  std::string_view head_;
+  std::string held_;
+  const bool body_follows_;
+  bool begun_ = false;
+  Pace pace_;
 };
 
 std::string http_date() {
@@ -102,23 +88,22 @@ bool send_part(const std::vector<Bytes>& body, std::size_t offset, httplib::Data
 
 }  // namespace
 
-Engine::Engine() {
+Engine::Engine(long long keep_alive_seconds) : keep_alive_seconds_(keep_alive_seconds) {
   svr_sock_ = 0;  // any valid number: content is sent only while httplib believes it listens
-  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& out) {
-    if (request.method == "POST") return HandlerResponse::Unhandled;
-    send((*answer_)([](const auto&) { return true; }), out);
+  set_pre_routing_handler([this](const httplib::Request&, httplib::Response& out) {
+    try {
+      describe(std::move(*response_), out);
+    } catch (...) {  // out of memory; httplib would put what() into a header
+      failed_ = true;
+    }
     return HandlerResponse::Handled;
   });
-  Post("/", [this](const httplib::Request&, httplib::Response& out, const httplib::ContentReader& content) {
-    const BodyReader reader = [&](const std::function<bool(std::string_view)>& receiver) {
-      return content([&](const char* data, size_t size) { return receiver({data, size}); });
-    };
-    send((*answer_)(reader), out);
-  });
   set_post_routing_handler([this](const httplib::Request&, httplib::Response& out) {
+    if (failed_) throw std::bad_alloc();  // before a byte is written
     out.headers.erase("Keep-Alive");
     out.headers.erase("Connection");
-    if (close_) out.set_header("Connection", "close");
+    out.set_header("Connection", close_ ? "close" : "keep-alive");
+    if (!close_) out.set_header("Keep-Alive", "timeout=" + std::to_string(keep_alive_seconds_));
     if (out.status == 204) out.headers.erase("Content-Length");
     out.headers.erase("Accept-Ranges");
     out.set_header("Accept-Ranges", "none");
@@ -126,21 +111,22 @@ Engine::Engine() {
   });
 }
 
-bool Engine::exchange(ClientSocket& socket, const Head& head, bool with_body,
-                      std::chrono::milliseconds patience,
-                      const std::function<Response(const BodyReader&)>& answer) {
-  EngineStream stream(socket, plain_head(head, with_body), patience);
-  const std::function<Response(const BodyReader&)> timed = [&](const BodyReader& reader) {
-    Response response = answer(reader);
-    stream.begin_answer();
-    return response;
-  };
-  answer_ = &timed;
-  bool client_closed = false;
-  return process_request(stream, false, client_closed, {});
+Engine::Sent Engine::send(ClientSocket& socket, Response response, bool head_only,
+                          std::chrono::milliseconds patience) {
+  const bool body_follows = !head_only && response.size() > 0;
+  EngineStream stream(socket, head_only ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n", body_follows,
+                      patience);
+  response_ = &response;
+  failed_ = false;
+  bool client_closed = false, whole = false;
+  try {
+    whole = process_request(stream, false, client_closed, {});
+  } catch (...) {  // out of memory
+  }
+  return whole ? Sent::whole : stream.begun() ? Sent::partly : Sent::nothing;
 }
 
-void Engine::send(Response response, httplib::Response& out) {
+void Engine::describe(Response response, httplib::Response& out) {
   close_ = response.close;
   out.status = response.status;
   for (const auto& [name, value] : response.headers) out.set_header(name, value);

@@ -5,25 +5,18 @@
 #include <optional>
 #include <utility>
 
+#include "server/transport/authority.h"
+#include "server/transport/grammar.h"
+
 namespace subdivd::server {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 std::string lowered(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(), lower);
   return result;
-}
-
-bool is_token(std::string_view text) {
-  constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
-  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
-    return (c >= '0' && c <= '9') || (lower(c) >= 'a' && lower(c) <= 'z') ||
-           kMarks.find(c) != std::string_view::npos;
-  });
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -44,7 +37,7 @@ bool lists(std::string_view list, std::string_view word) {
   return false;
 }
 
-std::optional<Refusal> read_request_line(std::string_view line, Head& head, int& minor_version) {
+std::optional<Refusal> read_request_line(std::string_view line, Head& head) {
   const std::size_t first = line.find(' ');
   const std::size_t last = line.rfind(' ');
   if (first == std::string_view::npos || first == last)
@@ -60,9 +53,9 @@ std::optional<Refusal> read_request_line(std::string_view line, Head& head, int&
                                    [](char c) { return c > ' ' && c < 0x7F && c != '#'; });
   if (!visible) return bad("the request target holds bytes that must be percent-encoded");
   if (version == "HTTP/1.1") {
-    minor_version = 1;
+    head.minor_version = 1;
   } else if (version == "HTTP/1.0") {
-    minor_version = 0;
+    head.minor_version = 0;
   } else if (version.starts_with("HTTP/")) {
     return Refusal{505, "http_version_not_supported", "this server speaks HTTP/1.1 and HTTP/1.0"};
   } else {
@@ -77,10 +70,8 @@ std::optional<Refusal> read_header_line(std::string_view line, Head& head) {
   if (colon == std::string_view::npos) return bad("a header line has no colon");
   if (!is_token(line.substr(0, colon))) return bad("a header name holds a character that no name may hold");
   const std::string_view value = trimmed(line.substr(colon + 1));
-  const bool clean = std::all_of(value.begin(), value.end(), [](char c) {
-    return static_cast<unsigned char>(c) >= 0x20 ? c != 0x7F : c == '\t';
-  });
-  if (!clean) return bad("a header value holds a control character");
+  if (!std::all_of(value.begin(), value.end(), is_text_character))
+    return bad("a header value holds a control character");
   if (head.headers.size() == kMaxHeaders)
     return Refusal{431, "headers_too_large", "a request may have 100 header lines"};
   head.headers.emplace_back(lowered(line.substr(0, colon)), value);
@@ -89,8 +80,8 @@ std::optional<Refusal> read_header_line(std::string_view line, Head& head) {
 
 std::optional<Refusal> read_length(const std::string& value, Head& head) {
   const char* end = value.data() + value.size();
-  const bool digits = !value.empty() && value.size() <= 18 &&
-                      std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits =
+      !value.empty() && value.size() <= 18 && std::all_of(value.begin(), value.end(), is_digit);
   if (!digits || std::from_chars(value.data(), end, head.content_length).ptr != end)
     return bad("Content-Length must be one decimal number");
   head.framing = Head::Framing::length;
@@ -98,12 +89,15 @@ std::optional<Refusal> read_length(const std::string& value, Head& head) {
 }
 
 // Decides where the request ends and whether another may follow.
-std::optional<Refusal> read_framing(Head& head, int minor_version) {
+std::optional<Refusal> read_framing(Head& head) {
+  const int minor_version = head.minor_version;
   int hosts = 0, lengths = 0, encodings = 0;
   head.keep_alive = minor_version == 1;
   for (const auto& [name, value] : head.headers) {
     if (name == "host") {
       ++hosts;
+      // Empty is what a client sends that has no name for us [RFC 9112, 3.2].
+      if (!value.empty() && !is_authority(value)) return bad("Host must be a name or an address, and a port");
     } else if (name == "content-length") {
       if (++lengths > 1) return bad("Content-Length is given more than once");
       if (auto refusal = read_length(value, head)) return refusal;
@@ -124,9 +118,6 @@ std::optional<Refusal> read_framing(Head& head, int minor_version) {
   if (lengths > 0) return bad("Transfer-Encoding and Content-Length exclude each other");
   if (minor_version == 0) return bad("HTTP/1.0 knows no Transfer-Encoding");
   head.framing = Head::Framing::chunked;
-  // A chunked body is the last of its connection: should anyone disagree on where it ends, the rest is never
-  // taken for another request.
-  head.keep_alive = false;
   return std::nullopt;
 }
 
@@ -134,7 +125,6 @@ std::optional<Refusal> read_framing(Head& head, int minor_version) {
 
 std::variant<Head, Refusal> parse_head(std::string_view text) {
   Head head;
-  int minor_version = 1;
   bool first = true;
   while (!text.empty()) {
     const std::size_t end = text.find(kLineEnd);
@@ -144,12 +134,12 @@ std::variant<Head, Refusal> parse_head(std::string_view text) {
     if (line.find_first_of(std::string_view("\r\n\0", 3)) != std::string_view::npos)
       return bad("a line of the head holds a bare CR, LF or NUL");
     if (line.empty()) break;
-    auto refusal = first ? read_request_line(line, head, minor_version) : read_header_line(line, head);
+    auto refusal = first ? read_request_line(line, head) : read_header_line(line, head);
     if (refusal) return *std::move(refusal);
     first = false;
   }
   if (first) return bad("the request is empty");
-  if (auto refusal = read_framing(head, minor_version)) return *std::move(refusal);
+  if (auto refusal = read_framing(head)) return *std::move(refusal);
   return head;
 }
 

@@ -26,11 +26,14 @@ struct Head {
 
   std::string method;
   std::string target;
+  int minor_version = 1;
   std::vector<Field> headers;  // names lower-cased, values trimmed
   Framing framing = Framing::none;
   std::uint64_t content_length = 0;
   bool keep_alive = true;
   bool expects_continue = false;
+
+  bool has_body() const { return framing == Framing::chunked || content_length > 0; }
 };
 
 // `text` is everything up to and including the empty line.

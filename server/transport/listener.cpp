@@ -1,6 +1,5 @@
 #include "server/transport/listener.h"
 
-#include <fcntl.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -9,9 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 namespace subdivd::server {
@@ -52,7 +49,6 @@ int listen_at(const addrinfo& candidate) {
 
 Result<std::unique_ptr<Listener>> Listener::open(const std::string& host, int port) {
   std::unique_ptr<Listener> listener(new Listener);
-  if (::pipe2(listener->wake_, O_CLOEXEC | O_NONBLOCK) != 0) return failure(host, port, std::strerror(errno));
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
@@ -72,15 +68,11 @@ Result<std::unique_ptr<Listener>> Listener::open(const std::string& host, int po
 }
 
 Listener::~Listener() {
-  for (const int fd : {fd_, wake_[0], wake_[1]})
-    if (fd >= 0) ::close(fd);
+  if (fd_ >= 0) ::close(fd_);
 }
 
-int Listener::accept() {
+int Listener::accept_now() {
   for (;;) {
-    pollfd entries[2] = {{fd_, POLLIN, 0}, {wake_[0], POLLIN, 0}};
-    if (::poll(entries, 2, -1) < 0 && errno != EINTR) return -1;
-    if (entries[1].revents != 0) return -1;
     const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd >= 0) {
       // Without it a response of two segments waits for the client's delayed acknowledgement: 40 ms.
@@ -88,16 +80,15 @@ int Listener::accept() {
       ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
       return fd;
     }
-    // A connection that died in the queue (ECONNABORTED) concerns nobody. Out of descriptors or memory: the
-    // connection stays in the queue, so wait for others to end rather than spin.
-    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) return kNoResources;
+    // A connection that died in the queue concerns nobody; other errors of its network neither.
+    if (errno != EINTR && errno != ECONNABORTED) return kNone;
   }
 }
 
-void Listener::stop() {
-  const char byte = 0;
-  [[maybe_unused]] const ssize_t written = ::write(wake_[1], &byte, 1);
+bool Listener::someone_waits() const {
+  pollfd entry{fd_, POLLIN, 0};
+  return ::poll(&entry, 1, 0) > 0;
 }
 
 }  // namespace subdivd::server

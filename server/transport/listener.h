@@ -18,14 +18,17 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
 
   int port() const { return port_; }
-  // Waits for a connection and returns its non-blocking descriptor; -1 after stop().
-  int accept();
-  void stop();
+  int fd() const { return fd_; }
+
+  static constexpr int kNone = -1, kNoResources = -2;
+  // The non-blocking descriptor of a connection that waits; or kNone; or kNoResources, when descriptors or
+  // memory are out (the connection goes on waiting).
+  int accept_now();
+  bool someone_waits() const;
 
  private:
   Listener() = default;
   int fd_ = -1;
-  int wake_[2] = {-1, -1};  // a pipe: writing to it ends accept()
   int port_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the transport asks of whoever answers: three questions and a record. All are called from many threads.
+// What the transport asks of whoever answers: four questions and a record. All are called from many threads.
 
 #include <cstdint>
 #include <optional>
@@ -28,6 +28,9 @@ struct Exchange {
   double milliseconds = 0;
 };
 
+// Who answers a request: one of many threads, or the one that is kept free for questions after the health.
+enum class Lane { general, health };
+
 class Service {
  public:
   Service() = default;
@@ -35,10 +38,13 @@ class Service {
   Service& operator=(const Service&) = delete;
   virtual ~Service() = default;
 
+  // Which lane a request takes that has no body. In the health lane nothing may take longer than a moment.
+  virtual Lane lane([[maybe_unused]] const Request& head) { return Lane::general; }
   // Judges a request by its head, before a byte of its body is read. A response ends the matter; without
   // one, answer() follows as soon as the body is complete.
   virtual std::optional<Response> screen(const Request& head) = 0;
-  // May move the body out of the request. An exception becomes refuse(500).
+  // May move the body out of the request. An exception becomes refuse(500); one that says
+  // that memory or threads are out, refuse(503).
   virtual Response answer(Request& request) = 0;
   // Words the transport's own refusals. `request` holds what could be read of it.
   virtual Response refuse(const Request& request, const Refusal& refusal) = 0;

@@ -4,15 +4,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "server/transport/authority.h"
+#include "server/transport/grammar.h"
+
 namespace subdivd::server {
 namespace {
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 // Length of the UTF-8 sequence that `lead` begins; 0 when nothing begins so.
 std::size_t sequence_length(unsigned char lead) {
@@ -36,6 +32,18 @@ bool parse_query(std::string_view text, std::vector<Field>& query) {
     query.emplace_back(*std::move(name), *std::move(value));
   }
   return true;
+}
+
+// Takes "http://" or "https://", in letters of either case, from the front.
+bool drop_scheme(std::string_view& target) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    const auto same = [](char a, char b) { return lower(a) == b; };
+    const std::string_view front = target.substr(0, scheme.size());
+    if (!std::equal(front.begin(), front.end(), scheme.begin(), scheme.end(), same)) continue;
+    target.remove_prefix(scheme.size());
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -80,17 +88,18 @@ bool is_utf8(std::string_view text) {
 
 std::optional<Target> parse_target(std::string_view target) {
   if (target == "*") return Target{"*", {}};
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (!target.starts_with(scheme)) continue;
-    const std::size_t path = target.find_first_of("/?", scheme.size());
-    target = path == std::string_view::npos ? "/" : target.substr(path);
-    break;
+  const bool absolute = drop_scheme(target);
+  if (absolute) {
+    const std::string_view authority = target.substr(0, target.find_first_of("/?"));
+    if (!is_authority(authority)) return std::nullopt;
+    target.remove_prefix(authority.size());
+  } else if (!target.starts_with('/')) {
+    return std::nullopt;
   }
-  if (!target.starts_with('/')) return std::nullopt;
   const std::size_t mark = target.find('?');
   auto path = percent_decode(target.substr(0, mark), false);
   if (!path || !is_utf8(*path)) return std::nullopt;
-  Target parsed{*std::move(path), {}};
+  Target parsed{path->empty() ? "/" : *std::move(path), {}};
   if (mark != std::string_view::npos && !parse_query(target.substr(mark + 1), parsed.query))
     return std::nullopt;
   return parsed;

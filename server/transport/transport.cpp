@@ -1,23 +1,29 @@
 #include "server/transport/transport.h"
 
-#include <unistd.h>
-
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "server/transport/connection.h"
-#include "server/transport/engine.h"
-#include "server/transport/listener.h"
-#include "server/transport/work_queue.h"
+#include "server/transport/census.h"
+#include "server/transport/descriptors.h"
+#include "server/transport/lanes.h"
+#include "server/transport/reception.h"
+#include "server/transport/watcher.h"
+#include "server/transport/worker.h"
 
 namespace subdivd::server {
 namespace {
 
-constexpr std::size_t kWaitingConnections = 1024;
-constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::chrono::milliseconds kPoll{5};
+// A health answer fits into the kernel's buffer; who has left that full of earlier ones is no prober.
+constexpr std::chrono::milliseconds kHealthPatience{20};
+// A client that sends one request after the other is spared the way through the reception.
+constexpr std::chrono::milliseconds kStay{1};
 
 }  // namespace
 
@@ -25,83 +31,163 @@ class Transport::Impl {
  public:
   Impl(TransportOptions options, Service& service, Quota& memory)
       : options_(std::move(options)),
-        context_{
-            options_, service, watcher_, memory, busy_, draining_, [this] { return !waiting_.empty(); }} {}
+        context_{service,
+                 watcher_,
+                 memory,
+                 draining_,
+                 {options_.max_body_bytes, options_.read_timeout},
+                 options_.idle_timeout,
+                 options_.max_requests_per_connection},
+        lanes_(service, options_.queue_timeout),
+        reception_(lanes_, memory, census_) {}
 
-  ~Impl() { stop(); }
+  ~Impl() {
+    end();
+    join();
+  }
 
   Result<void> start() {
-    auto listener = Listener::open(options_.host, options_.port);
-    if (!listener) return std::move(listener).error();
-    listener_ = std::move(listener).value();
+    max_connections_ = allow_connections(options_.max_connections);
     try {
-      for (std::size_t i = 0; i < options_.threads; ++i) workers_.emplace_back([this] { work(); });
-      acceptor_ = std::thread([this] { accept(); });
+      add_worker(Lane::health, kHealthPatience);
+      for (std::size_t i = 0; i < options_.threads; ++i) add_worker(Lane::general, options_.read_timeout);
+      return reception_.start(options_.host, options_.port,
+                              {max_connections_, options_.idle_timeout, options_.read_timeout,
+                               options_.idle_timeout + options_.idle_grace});
     } catch (const std::system_error&) {
-      stop();
+      end();
+      join();
       return Error{
           ErrorCode::internal, "the system refuses to start so many threads", {}, 0, options_.threads};
     }
-    return {};
   }
 
-  int port() const { return listener_ ? listener_->port() : 0; }
-  void begin_drain() { draining_ = true; }
+  int port() const { return reception_.port(); }
+
+  void begin_drain() {
+    draining_ = true;
+    reception_.begin_drain();
+  }
 
   bool wait_until_idle(std::chrono::milliseconds patience) {
     const Clock::time_point deadline = Clock::now() + patience;
     for (;;) {
-      if (!busy_.wait_until_zero(deadline)) return false;
-      if (waiting_.empty()) return true;
+      if (!census_.wait_until_no_request(deadline)) return false;
+      if (reception_.counts().lingering == 0) return true;
       if (Clock::now() >= deadline) return false;
       std::this_thread::sleep_for(kPoll);
     }
   }
 
-  void stop() {
-    if (!listener_) return;
+  bool stop(std::chrono::milliseconds patience) {
+    end();
+    {
+      std::unique_lock lock(mutex_);
+      if (!ended_.wait_for(lock, patience, [this] { return running_ == 0; })) return false;
+    }
+    join();
+    return true;
+  }
+
+  State state() const {
+    const Reception::Counts counts = reception_.counts();
+    State state;
+    state.connections = census_.connections();
+    state.max_connections = max_connections_;
+    state.silent = counts.silent;
+    state.idle = counts.idle;
+    state.lingering = counts.lingering;
+    state.requests = census_.requests();
+    state.heads = counts.heads;
+    state.waiting = lanes_.waiting();
+    const std::lock_guard lock(mutex_);
+    state.threads = running_;
+    return state;
+  }
+
+ private:
+  void end() {
     draining_ = true;
-    listener_->stop();
-    waiting_.close();
-    if (acceptor_.joinable()) acceptor_.join();
-    ended_ = true;
+    reception_.stop();
+    lanes_.close();
     watcher_.cut_all();
+  }
+
+  void join() {
     for (std::thread& worker : workers_) worker.join();
     workers_.clear();
   }
 
- private:
-  void accept() {
+  void add_worker(Lane lane, std::chrono::milliseconds patience) {
+    workers_.reserve(workers_.size() + 1);  // a thread that has no place in the list could not be joined
+    workers_.emplace_back([this, lane, patience] { work(lane, patience); });
+  }
+
+  void work(Lane lane, std::chrono::milliseconds patience) {
+    count_thread(1);
+    {
+      Worker worker(context_, patience);
+      for (;;) {
+        Connections one = lanes_.pop(lane);
+        if (one.empty()) break;
+        serve(worker, lane, std::move(one));
+      }
+    }
+    count_thread(-1);
+  }
+
+  void count_thread(int change) {
+    const std::lock_guard lock(mutex_);
+    running_ += static_cast<std::size_t>(change);
+    if (running_ == 0) ended_.notify_all();
+  }
+
+  void serve(Worker& worker, Lane lane, Connections one) {
+    Connection& connection = *one.front();
     for (;;) {
-      const int fd = listener_->accept();
-      if (fd < 0) return;
-      if (!waiting_.push(fd)) ::close(fd);
+      const Worker::After after = worker.answer(connection);
+      const Census::Counted counted = std::move(connection.turn().counted);  // until the reception has it
+      connection.end_turn();
+      if (after == Worker::After::close) return;
+      if (after == Worker::After::linger) return reception_.await_end(std::move(one));
+      switch (next_head(connection, lane)) {
+        case Connection::Progress::closed:
+          return;
+        case Connection::Progress::nothing:
+          return reception_.await_request(std::move(one), false);
+        case Connection::Progress::begun:
+          return reception_.await_request(std::move(one), true);
+        case Connection::Progress::complete:
+          // Whoever waits already has waited longer.
+          if (lane == Lane::health || lanes_.others_wait(lane)) return lanes_.push(std::move(one));
+      }
     }
   }
 
-  void work() {
-    Engine engine;
-    while (const std::optional<int> fd = waiting_.pop()) {
-      if (ended_) {
-        ::close(*fd);
-        continue;
-      }
-      try {
-        Connection(*fd, engine, context_).serve();
-      } catch (...) {  // out of memory while reading a head: this connection ends, the others do not
-      }
+  Connection::Progress next_head(Connection& connection, Lane lane) {
+    ClientSocket& socket = connection.socket();
+    try {
+      if (lane == Lane::general && socket.buffered().empty() && lanes_.has_spare_thread(lane))
+        socket.wait_readable(Clock::now() + kStay);
+      return connection.read_head();
+    } catch (const std::bad_alloc&) {
+      socket.write_now(kBareOverloaded);
+      return Connection::Progress::closed;
     }
   }
 
   const TransportOptions options_;
+  std::size_t max_connections_ = 0;
+  Census census_;  // outlives every connection
   Watcher watcher_;
-  BusyCount busy_;
-  WorkQueue waiting_{kWaitingConnections};
-  std::atomic<bool> draining_ = false, ended_ = false;
-  const ConnectionContext context_;
-  std::unique_ptr<Listener> listener_;
+  std::atomic<bool> draining_ = false;
+  const WorkerContext context_;
+  Lanes lanes_;
+  Reception reception_;
+  mutable std::mutex mutex_;
+  std::condition_variable ended_;
+  std::size_t running_ = 0;  // threads
   std::vector<std::thread> workers_;
-  std::thread acceptor_;
 };
 
 Transport::Transport(TransportOptions options, Service& service, Quota& memory)
@@ -113,6 +199,7 @@ void Transport::begin_drain() { impl_->begin_drain(); }
 bool Transport::wait_until_idle(std::chrono::milliseconds patience) {
   return impl_->wait_until_idle(patience);
 }
-void Transport::stop() { impl_->stop(); }
+bool Transport::stop(std::chrono::milliseconds patience) { return impl_->stop(patience); }
+Transport::State Transport::state() const { return impl_->state(); }
 
 }  // namespace subdivd::server

@@ -50,7 +50,7 @@ const std::set<std::string_view> kStandardLibrary = {
 };
 
 const std::set<std::string_view> kPosix = {
-  "arpa/inet.h", "fcntl.h", "netdb.h", "netinet/in.h", "netinet/tcp.h", "poll.h", "pthread.h", "signal.h", "sys/socket.h",
+  "arpa/inet.h", "fcntl.h", "netdb.h", "netinet/in.h", "netinet/tcp.h", "poll.h", "pthread.h", "signal.h", "sys/epoll.h", "sys/eventfd.h", "sys/resource.h", "sys/socket.h",
   "sys/stat.h", "sys/time.h", "sys/types.h", "sys/un.h", "sys/wait.h", "unistd.h",
 };
 // clang-format on

@@ -4,8 +4,10 @@
 
 #include <atomic>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -16,6 +18,8 @@ namespace subdivd::server::testing {
 
 class FakeService final : public Service {
  public:
+  Lane lane(const Request& head) override { return head.path == "/health" ? Lane::health : Lane::general; }
+
   std::optional<Response> screen(const Request& head) override {
     if (head.path == "/screen-throws") throw std::runtime_error("secret of screen");
     if (head.path != "/early") return std::nullopt;
@@ -25,6 +29,10 @@ class FakeService final : public Service {
   Response answer(Request& request) override {
     if (request.path == "/throws") throw std::runtime_error("secret of answer");
     if (request.path == "/throws-a-number") throw 42;
+    if (request.path == "/no-memory") throw std::bad_alloc();
+    if (request.path == "/no-threads")
+      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+    if (request.path == "/stuck") return stuck();
     if (request.path == "/large") return large();
     if (request.path == "/wait") return wait(request);
     if (request.path == "/peer") return text(200, request.peer);
@@ -58,7 +66,7 @@ class FakeService final : public Service {
 
   static constexpr std::size_t kLargePart = 3'000'000;
   std::atomic<bool> refuse_throws = false, record_throws = false;
-  std::atomic<bool> let_go = false;                  // ends /wait
+  std::atomic<bool> let_go = false;                  // ends /wait and /stuck
   std::atomic<int> waiting = 0, seen_cancelled = 0;  // requests in /wait; those that were cancelled there
   std::atomic<int> broken_off = 0;                   // responses that were not sent whole
   std::mutex mutex;
@@ -69,6 +77,14 @@ class FakeService final : public Service {
     Response response = text(200, std::string(kLargePart, 'a'));
     response.body.push_back(Bytes::of(std::string(kLargePart, 'b')));
     return response;
+  }
+
+  // As /wait, but it cannot be cancelled.
+  Response stuck() {
+    ++waiting;
+    while (!let_go) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    --waiting;
+    return text(200, "stuck");
   }
 
   Response wait(const Request& request) {
@@ -86,6 +102,7 @@ inline TransportOptions quick_options() {
   options.max_body_bytes = 100'000;
   options.read_timeout = std::chrono::milliseconds(400);
   options.idle_timeout = std::chrono::milliseconds(400);
+  options.idle_grace = std::chrono::milliseconds(100);
   return options;
 }
 

@@ -52,11 +52,19 @@ TEST(Head, refuses_two_transfer_encodings) {
 TEST(Head, refuses_chunks_in_http_1_0) {
   EXPECT_EQ(status_of("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n"), 400);
 }
-TEST(Head, lets_no_request_follow_a_chunked_one) {
-  EXPECT_FALSE(head_of(kPost + "Transfer-Encoding: Chunked\r\n").keep_alive);
+TEST(Head, lets_a_request_follow_a_chunked_one) {
+  EXPECT_TRUE(head_of(kPost + "Transfer-Encoding: Chunked\r\n").keep_alive);
 }
 TEST(Head, refuses_a_missing_host) { EXPECT_EQ(status_of("GET / HTTP/1.1\r\n"), 400); }
 TEST(Head, refuses_two_hosts) { EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n"), 400); }
+TEST(Head, takes_every_kind_of_host) {
+  for (const char* host : {"a", "a.example:80", "127.0.0.1", "[::1]", "[::1]:8080", "a%2db", ""})
+    EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: " + std::string(host) + "\r\n"), 200) << host;
+}
+TEST(Head, refuses_what_is_no_host) {
+  for (const char* host : {"a b", "<script>", "a/b", "u@a", "a:b", "a:65536", "[::1", "[a]", "a%zz"})
+    EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: " + std::string(host) + "\r\n"), 400) << host;
+}
 TEST(Head, lets_http_1_0_go_without_host) { EXPECT_EQ(status_of("GET / HTTP/1.0\r\n"), 200); }
 TEST(Head, closes_after_http_1_0) { EXPECT_FALSE(head_of("GET / HTTP/1.0\r\n").keep_alive); }
 TEST(Head, closes_when_asked_in_a_list) {

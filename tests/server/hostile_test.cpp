@@ -44,12 +44,40 @@ TEST(Hostile, closes_after_a_smuggling_attempt) {
   EXPECT_EQ(client.receive().status, 400);
   EXPECT_EQ(client.receive().status, 0);
 }
-TEST(Hostile, takes_nothing_after_a_chunked_body_for_a_request) {
+TEST(Hostile, ends_a_chunked_body_where_it_ends) {
   const RunningTransport server;
   RawClient client(server.port);
-  client.send(kChunkedPost + "0\r\n\r\n" + get("/smuggled"));
+  client.send(kChunkedPost + "0\r\n\r\n" + get("/next"));
   EXPECT_EQ(client.receive().body, "0");
-  EXPECT_EQ(client.receive().status, 0);
+  EXPECT_EQ(client.receive().body, "GET /next\n");
+}
+TEST(Hostile, takes_nothing_after_a_malformed_chunked_body_for_a_request) {
+  const RunningTransport server;
+  for (const char* body : {"0\n\n", "0\r\n\n", "1\nx\r\n0\r\n\r\n", "1 \r\nx\r\n0\r\n\r\n", "0x0\r\n\r\n",
+                           "1\r\nxx\r\n0\r\n\r\n", "0\r\n folded: 1\r\n\r\n"}) {
+    RawClient client(server.port);
+    client.send(kChunkedPost + body + get("/smuggled"));
+    EXPECT_EQ(client.receive().status, 400) << body;
+    EXPECT_EQ(client.receive().status, 0) << body;
+  }
+}
+TEST(Hostile, refuses_what_can_never_become_http_at_once) {
+  TransportOptions options = quick_options();
+  options.read_timeout = std::chrono::minutes(10);
+  const RunningTransport server(options);
+  const std::string tls_hello("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
+  for (const std::string& bytes : {tls_hello, std::string("GET / HTTP/1.1\nHost: a\n\n"),
+                                   std::string("GET /\rX"), std::string("GET /\0", 6), std::string("\x01"),
+                                   std::string(" GET"), std::string("\r\n\n"), std::string("G\x7f")}) {
+    RawClient client(server.port);
+    client.send(bytes);
+    EXPECT_EQ(client.receive().status, 400) << ::testing::PrintToString(bytes);
+    EXPECT_TRUE(client.closed_within(milliseconds(5000)));
+  }
+}
+TEST(Hostile, refuses_a_host_that_is_markup) {
+  const RunningTransport server;
+  EXPECT_EQ(ask(server.port, "GET /a HTTP/1.1\r\nHost: <script>\r\n\r\n").status, 400);
 }
 TEST(Hostile, refuses_malformed_lengths) {
   const RunningTransport server;
@@ -98,6 +126,26 @@ TEST(Hostile, refuses_bodies_that_would_fill_the_memory_for_all) {
   const RunningTransport server(quick_options(), 50'000);
   EXPECT_EQ(ask(server.port, post("/size", std::string(60'000, 'x'))).status, 503);
   EXPECT_EQ(ask(server.port, post("/size", std::string(40'000, 'x'))).status, 200);
+}
+TEST(Hostile, refuses_a_head_that_would_fill_the_memory_for_all) {
+  const RunningTransport server(quick_options(), 6'000);
+  EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(20'000, 'x') + "\r\n")).status, 503);
+  EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(2'000, 'x') + "\r\n")).status, 200);
+}
+TEST(Hostile, reserves_a_body_whole_before_it_comes) {
+  TransportOptions options = quick_options();
+  options.read_timeout = std::chrono::minutes(10);
+  const RunningTransport server(options, 70'000);
+  RawClient slow(server.port);
+  slow.send("POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 50000\r\n\r\nabc");
+  ASSERT_TRUE(eventually([&] {
+    const Transport::State state = server.transport.state();
+    return state.requests == 1 && state.waiting == 0 && state.heads == 0;
+  }));
+  EXPECT_TRUE(
+      eventually([&] { return ask(server.port, post("/size", std::string(50'000, 'x'))).status == 503; }));
+  slow.send(std::string(49'997, 'x'));
+  EXPECT_EQ(slow.receive().body, "50000");
 }
 TEST(Hostile, gives_buffer_memory_back) {
   const RunningTransport server(quick_options(), 60'000);
@@ -167,6 +215,22 @@ TEST(Hostile, hides_what_a_handler_throws) {
 TEST(Hostile, survives_a_handler_that_throws_a_number) {
   const RunningTransport server;
   EXPECT_EQ(ask(server.port, get("/throws-a-number")).status, 500);
+  EXPECT_TRUE(alive(server));
+}
+TEST(Hostile, says_503_when_a_handler_runs_out_of_memory_or_threads) {
+  const RunningTransport server;
+  for (const char* path : {"/no-memory", "/no-threads"}) {
+    const RawResponse response = ask(server.port, post(path, "x"));
+    EXPECT_EQ(response.status, 503) << path;
+    EXPECT_EQ(response.body.substr(0, response.body.find(':')), "overloaded") << path;
+  }
+}
+TEST(Hostile, says_503_when_there_is_no_memory_for_words) {
+  RunningTransport server;
+  server.service.refuse_throws = true;
+  const RawResponse response = ask(server.port, get("/no-memory"));
+  EXPECT_EQ(response.status, 503);
+  EXPECT_EQ(response.header("retry-after"), "1");
   EXPECT_TRUE(alive(server));
 }
 TEST(Hostile, survives_a_screen_that_throws) {

@@ -40,7 +40,11 @@ void parse_fields(std::string_view head, RawResponse& response) {
 
 }  // namespace
 
-RawClient::RawClient(int port, int receive_buffer) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+RawClient::RawClient() : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {}
+
+RawClient::RawClient(int port, int receive_buffer) : RawClient() { connect(port, receive_buffer); }
+
+void RawClient::connect(int port, int receive_buffer) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<in_port_t>(port));
@@ -57,6 +61,8 @@ void RawClient::close() {
   if (fd_ >= 0) ::close(fd_);
   fd_ = -1;
 }
+
+void RawClient::end_sending() { ::shutdown(fd_, SHUT_WR); }
 
 void RawClient::reset() {
   const linger hard{1, 0};
@@ -98,6 +104,12 @@ RawResponse RawClient::receive(bool head_request) {
   response.complete = buffer_.size() >= length;
   response.body = buffer_.substr(0, length);
   buffer_.erase(0, length);
+  return response;
+}
+
+RawResponse RawClient::receive_final() {
+  RawResponse response = receive();
+  while (response.status >= 100 && response.status < 200) response = receive();
   return response;
 }
 

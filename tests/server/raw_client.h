@@ -22,16 +22,20 @@ struct RawResponse {
 
 class RawClient {
  public:
+  RawClient();                                           // with a descriptor, not yet connected
   explicit RawClient(int port, int receive_buffer = 0);  // 0: the system's size
   ~RawClient();
   RawClient(const RawClient&) = delete;
   RawClient& operator=(const RawClient&) = delete;
 
+  void connect(int port, int receive_buffer = 0);
   bool send(std::string_view bytes);  // false once the server has closed
   RawResponse receive(bool head_request = false);
+  RawResponse receive_final();                             // skips interim responses
   bool closed_within(std::chrono::milliseconds patience);  // by the server, cleanly or not
   void close();
-  void reset();  // closes with a RST
+  void end_sending();  // and goes on reading
+  void reset();        // closes with a RST
 
  private:
   bool more();

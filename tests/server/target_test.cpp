@@ -26,6 +26,17 @@ TEST(Target, takes_the_absolute_form) {
   EXPECT_EQ(target->path, "/a");
 }
 TEST(Target, takes_an_absolute_form_without_path) { EXPECT_EQ(parse_target("http://host")->path, "/"); }
+TEST(Target, takes_an_absolute_form_with_a_query_alone) {
+  const auto target = parse_target("HTTP://host?a=1");
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->path, "/");
+  EXPECT_EQ(target->query.size(), 1u);
+}
+TEST(Target, refuses_an_absolute_form_without_a_proper_host) {
+  for (const char* text :
+       {"http://", "http:///a", "http://u:p@host/", "http://a<b/", "http://host:x/", "http://:80/"})
+    EXPECT_FALSE(parse_target(text)) << text;
+}
 TEST(Target, takes_the_asterisk) { EXPECT_EQ(parse_target("*")->path, "*"); }
 TEST(Target, refuses_relative_paths) { EXPECT_FALSE(parse_target("a/b")); }
 TEST(Target, refuses_an_authority_alone) { EXPECT_FALSE(parse_target("host:443")); }

@@ -53,7 +53,20 @@ TEST(Transport, reads_a_chunked_body) {
                                    "POST /a HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n"
                                    "3\r\nabc\r\n2;ext=1\r\nde\r\n0\r\n\r\n");
   EXPECT_EQ(response.body, "POST /a\nabcde");
-  EXPECT_EQ(response.header("connection"), "close");
+}
+TEST(Transport, reads_past_the_trailers_of_a_chunked_body) {
+  const RunningTransport server;
+  const RawResponse response = ask(server.port,
+                                   "POST /a HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n"
+                                   "3\r\nabc\r\n0\r\nX-Checksum: 1\r\nX-Other: 2\r\n\r\n");
+  EXPECT_EQ(response.body, "POST /a\nabc");
+}
+TEST(Transport, answers_a_head_request_that_has_a_body_without_one) {
+  const RunningTransport server;
+  RawClient client(server.port);
+  client.send("HEAD /a HTTP/1.1\r\nHost: a\r\nContent-Length: 3\r\n\r\nabc" + get("/b"));
+  EXPECT_EQ(client.receive(true).status, 200);
+  EXPECT_EQ(client.receive().body, "GET /b\n");
 }
 TEST(Transport, keeps_a_connection_alive) {
   const RunningTransport server;
@@ -78,6 +91,13 @@ TEST(Transport, closes_when_the_client_asks_for_it) {
   EXPECT_EQ(client.receive().header("connection"), "close");
   EXPECT_TRUE(client.closed_within(milliseconds(300)));
 }
+TEST(Transport, announces_how_long_it_keeps_a_connection) {
+  TransportOptions options = quick_options();
+  options.idle_timeout = milliseconds(7'900);
+  const RunningTransport server(options);
+  EXPECT_EQ(ask(server.port, get("/a")).header("keep-alive"), "timeout=7");
+  EXPECT_EQ(ask(server.port, get("/a", "Connection: close\r\n")).header("keep-alive"), "");
+}
 TEST(Transport, closes_an_idle_connection) {
   const RunningTransport server;
   RawClient client(server.port);
@@ -91,7 +111,7 @@ TEST(Transport, closes_after_the_last_allowed_request) {
   const RunningTransport server(options);
   RawClient client(server.port);
   client.send(get("/a") + get("/b"));
-  EXPECT_EQ(client.receive().header("connection"), "");
+  EXPECT_EQ(client.receive().header("connection"), "keep-alive");
   EXPECT_EQ(client.receive().header("connection"), "close");
 }
 TEST(Transport, gives_an_idle_connections_thread_to_one_that_waits) {
@@ -201,12 +221,16 @@ TEST(Transport, cancels_what_still_runs_when_it_stops) {
 }
 TEST(Transport, records_every_response) {
   RunningTransport server;
+  const auto recorded = [&](const std::vector<int>& statuses) {
+    return eventually([&] {
+      const std::lock_guard lock(server.service.mutex);
+      return server.service.statuses == statuses;
+    });
+  };
   ask(server.port, get("/a"));
+  EXPECT_TRUE(recorded({200}));
   ask(server.port, "nonsense\r\n\r\n");
-  EXPECT_TRUE(eventually([&] {
-    const std::lock_guard lock(server.service.mutex);
-    return server.service.statuses == std::vector<int>{200, 400};
-  }));
+  EXPECT_TRUE(recorded({200, 400}));
 }
 
 }  // namespace
