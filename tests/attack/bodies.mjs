@@ -156,11 +156,13 @@ export function sheetOfBytes(bytes) {
 
 export const flatCurve = (points) => json(`{"curves":[{"points":[${list(points, (i) => `[${i % 10}]`)}]}]}`);
 
-// A sheet of triangles with positions and `attributes` further attributes of four floats. `torn`: every corner is a vertex of
-// its own, so that no value of an attribute belongs to two faces.
-export function glbWithAttributes(attributes, bytes, torn = false) {
-  const perSquare = torn ? 6 * (12 + 16 * attributes) : 12 + 16 * attributes + 24;
-  const side = Math.floor(Math.sqrt(bytes / perSquare)), corners = new Uint32Array(6 * side * side);
+// A sheet of triangles with positions and `attributes` further attributes of four numbers. `torn`: every corner is a vertex of
+// its own, so that no value of an attribute belongs to two faces. `shared`: all attributes are the same bytes, one for each
+// number, which become much more than a byte in memory.
+export function glbWithAttributes(attributes, bytes, { torn = false, shared = false } = {}) {
+  const perVertex = 12 + (shared ? 4 : 16 * attributes);
+  const side = Math.floor(Math.sqrt(bytes / (torn ? 6 * perVertex : perVertex + 24)));
+  const corners = new Uint32Array(6 * side * side);
   for (let i = 0; i < side * side; ++i) {
     const a = Math.floor(i / side) * (side + 1) + (i % side), c = a + side + 1;
     corners.set([a, a + 1, c + 1, a, c + 1, c], 6 * i);
@@ -168,36 +170,29 @@ export function glbWithAttributes(attributes, bytes, torn = false) {
   const points = torn ? corners : Uint32Array.from({ length: (side + 1) ** 2 }, (_, i) => i);
   const positions = new Float32Array(3 * points.length);
   points.forEach((point, i) => positions.set([point % (side + 1), Math.floor(point / (side + 1)), point % 3], 3 * i));
-  const values = new Float32Array(4 * points.length).map((_, i) => (i * 7919) % 1000);
-  const indices = torn ? [] : [corners];
-  const parts = [positions, ...Array.from({ length: attributes }, () => values), ...indices].map(({ buffer }) => Buffer.from(buffer));
+  const values = new (shared ? Uint8Array : Float32Array)(4 * points.length).map((_, i) => (i * 7919) % 251);
+
+  const bufferViews = [], accessors = [], parts = [];
   let offset = 0;
-  const bufferViews = parts.map(({ length: byteLength }) => {
-    const view = { buffer: 0, byteOffset: offset, byteLength };
-    offset += byteLength;
-    return view;
-  });
-  const isIndices = (i) => i > attributes;
+  const accessor = (array, more) => {
+    const part = Buffer.from(array.buffer);
+    bufferViews.push({ buffer: 0, byteOffset: offset, byteLength: part.length });
+    parts.push(part);
+    offset += part.length;
+    return accessors.push({ bufferView: bufferViews.length - 1, count: points.length, ...more }) - 1;
+  };
+  const valueAccessor = () => accessor(values, { type: 'VEC4', componentType: shared ? 5121 : 5126, normalized: shared });
+  const primitive = { attributes: { POSITION: accessor(positions, { type: 'VEC3', componentType: 5126, min: [0, 0, 0], max: [side, side, 2] }) } };
+  if (!torn) primitive.indices = accessor(corners, { type: 'SCALAR', componentType: 5125, count: corners.length });
+  const first = valueAccessor();
+  for (let i = 0; i < attributes; ++i) primitive.attributes[`_V${i}`] = shared || i === 0 ? first : valueAccessor();
   return glb({
-    asset: { version: '2.0' },
-    buffers: [{ byteLength: offset }],
-    bufferViews,
-    accessors: parts.map((_, i) => ({
-      bufferView: i,
-      componentType: isIndices(i) ? 5125 : 5126,
-      count: isIndices(i) ? corners.length : points.length,
-      type: isIndices(i) ? 'SCALAR' : i === 0 ? 'VEC3' : 'VEC4',
-      ...(i === 0 && { min: [0, 0, 0], max: [side, side, 2] }),
-    })),
-    meshes: [{ primitives: [{
-      attributes: Object.fromEntries([['POSITION', 0], ...Array.from({ length: attributes }, (_, i) => [`_V${i}`, i + 1])]),
-      ...(!torn && { indices: attributes + 1 }),
-    }] }],
-    nodes: [{ mesh: 0 }],
+    asset: { version: '2.0' }, buffers: [{ byteLength: offset }], bufferViews, accessors,
+    meshes: [{ primitives: [primitive] }], nodes: [{ mesh: 0 }],
   }, Buffer.concat(parts));
 }
 
-// Half a kilobyte that stands for half a gigabyte of zeros.
+// A quarter of a kilobyte that stands for half a gigabyte of zeros.
 export function elementsOfNothing(count = 44_000_001) {
   return glb({
     asset: { version: '2.0' },
@@ -211,21 +206,18 @@ export const longKey = (bytes) => json(`{"${'k'.repeat(bytes)}":0,"points":[0,0,
 
 // --- hundreds of refusals -------------------------------------------------------------------------------------
 
-// Number i of an endless row of bodies that are refused after something has been allocated for them.
-export function hostile(i) {
-  const makers = [
-    () => json(`{"points":[${flatPoints(300_000)}],"faceVertexIndices":[0,1,300000]}`),
-    () => json(`{"points":[${flatPoints(300_000)}`),
-    () => longKey(5_000_000),
-    () => json(`{"points":[${'[],'.repeat(1_000_000)}[]],"faceVertexIndices":[0,1,2]}`),
-    () => json(`{"extra":${'['.repeat(1_000_000)}`),
-    () => manyMembers(300_000),
-    () => json(`{"meshes":[${list(50_000, () => '{"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2]}')},{}]}`),
-    () => manyAttributes(20_000),
-    () => glbWithAttributes(8, 6_000_000).subarray(0, 5_000_000),
-    () => triangleGlb({ more: `,"extras":[${'{},'.repeat(500_000)}{}],"nonsense` }),
-    () => json(`{"curves":[{"points":[${list(1_000_000, (k) => `[${k % 10}]`)},[1,2]]}]}`),
-    () => elementsOfNothing(4_000_002),
-  ];
-  return makers[i % makers.length]();
-}
+// Bodies that are refused after something has been allocated for them, and a few that are not.
+export const hostile = () => [
+  json(`{"points":[${flatPoints(300_000)}],"faceVertexIndices":[0,1,300000]}`),
+  json(`{"points":[${flatPoints(300_000)}`),
+  longKey(5_000_000),
+  json(`{"points":[${'[],'.repeat(1_000_000)}[]],"faceVertexIndices":[0,1,2]}`),
+  json(`{"extra":${'['.repeat(1_000_000)}`),
+  manyMembers(300_000),
+  json(`{"meshes":[${list(50_000, () => '{"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2]}')},{}]}`),
+  manyAttributes(20_000),
+  glbWithAttributes(8, 6_000_000).subarray(0, 5_000_000),
+  triangleGlb({ more: `,"extras":[${'{},'.repeat(500_000)}{}],"nonsense` }),
+  json(`{"curves":[{"points":[${list(1_000_000, (k) => `[${k % 10}]`)},[1,2]]}]}`),
+  elementsOfNothing(4_000_002),
+];

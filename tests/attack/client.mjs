@@ -6,6 +6,9 @@ import { setTimeout as pause } from 'node:timers/promises';
 export const tetrahedron = Buffer.from(
   '{"points":[[4,4,4],[-4,-4,4],[-4,4,-4],[4,-4,-4]],"faceVertexIndices":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}');
 
+// Whatever is wrong with a body, and whatever it takes.
+export const documented = [200, 400, 413, 415, 422, 503];
+
 export function head(method, path, headers = {}) {
   const lines = Object.entries({ Host: 'attack', ...headers }).map(([name, value]) => `${name}: ${value}\r\n`);
   return Buffer.from(`${method} ${path} HTTP/1.1\r\n${lines.join('')}\r\n`, 'latin1');

@@ -1,10 +1,21 @@
-// What the kernel tells of the daemon's process.
+// A daemon for one test, and what the kernel tells of its process.
 import { readFileSync } from 'node:fs';
 import { setTimeout as pause } from 'node:timers/promises';
+import { startDaemon } from '../e2e/daemon.mjs';
 
 export const MiB = 2 ** 20;
 export const GiB = 2 ** 30;
 export const isLong = process.env.SUBDIVD_ATTACK === 'long';
+
+// It is killed afterwards, whatever it is at.
+export async function withDaemon(flags, body, options) {
+  const daemon = await startDaemon(flags, options);
+  try {
+    await body(daemon);
+  } finally {
+    daemon.child.kill('SIGKILL');
+  }
+}
 
 function statusBytes(daemon, name) {
   const status = readFileSync(`/proc/${daemon.child.pid}/status`, 'utf8');
