@@ -18,7 +18,7 @@
 namespace subdivd::server {
 namespace {
 
-constexpr std::chrono::milliseconds kLogPatience{500};
+constexpr std::chrono::milliseconds kLogPatience{500}, kStopPatience{2000};
 
 // Freed memory that the allocator may keep for the next request.
 constexpr std::uint64_t kLeastSlack = std::uint64_t{16} << 20;
@@ -68,8 +68,9 @@ std::string url_of(const Config& config, int port) {
 }
 
 // Everything that is taken and given back, as SIGUSR1 puts it into the log: idle, all of it is free.
-std::string state_line(const Application& application, const Quota& bodies) {
+std::string state_line(const Application& application, const Quota& bodies, const Transport& transport) {
   const Grants::State work = application.grants().state();
+  const Transport::State state = transport.state();
   std::string line = "state";
   const auto add = [&](const char* name, std::uint64_t value) {
     line += std::string(" ") + name + "=" + std::to_string(value);
@@ -78,7 +79,9 @@ std::string state_line(const Application& application, const Quota& bodies) {
   add("memory_free", work.free_bytes + bodies.free());
   add("places_total", work.places);
   add("places_free", work.free_places);
-  add("waiting", work.waiting);
+  add("waiting", work.waiting + state.waiting);
+  add("connections", state.connections);
+  add("busy", state.requests);
   add("log_dropped", dropped_log_lines());
   add("resident", resident_bytes());
   return line;
@@ -91,24 +94,28 @@ Count used_bytes(const Application& application, const Quota& bodies) {
 
 // Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
 // terminal may end the daemon.
-void wait_for_the_end(const sigset_t& signals, const Application& application, const Quota& bodies) {
+void wait_for_the_end(const sigset_t& signals, const Application& application, const Quota& bodies,
+                      const Transport& transport) {
   for (;;) {
     int received = 0;
     if (sigwait(&signals, &received) != 0) continue;
     if (received == SIGTERM || received == SIGINT) return;
-    if (received == SIGUSR1) log_info(state_line(application, bodies));
+    if (received == SIGUSR1) log_info(state_line(application, bodies, transport));
     if (received == SIGHUP) log_info("SIGHUP: settings are read at start only");
   }
 }
 
-void drain(const Config& config, Application& application, Transport& transport) {
+// False when a thread goes on that cannot be stopped: the process then has to end without it.
+bool drain(const Config& config, Application& application, Transport& transport) {
   log_info("draining");
   application.begin_drain();
   transport.begin_drain();
   if (!transport.wait_until_idle(milliseconds(config.drain_seconds)))
     log_warning("the time for draining is over: cancelling what still runs");
-  transport.stop();
+  const bool stopped = transport.stop(kStopPatience);
+  if (!stopped) log_warning("what still runs cannot be cancelled: ending without it");
   log_info("ended");
+  return stopped;
 }
 
 }  // namespace
@@ -134,10 +141,10 @@ int run(const Config& config) {
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
   const Housekeeper housekeeper([&] { return used_bytes(application, bodies); },
                                 std::max(config.max_memory_bytes / 32, kLeastSlack));
-  wait_for_the_end(signals, application, bodies);
-  drain(config, application, transport);
+  wait_for_the_end(signals, application, bodies, transport);
+  const bool stopped = drain(config, application, transport);
   // A reader of the log that has stalled keeps the writing thread for ever: leave without it.
-  if (!finish_log(kLogPatience)) std::_Exit(0);
+  if (!finish_log(kLogPatience) || !stopped) std::_Exit(0);
   return 0;
 }
 

@@ -8,8 +8,9 @@
 namespace subdivd::server {
 namespace {
 
-// An announced length is believed, and memory reserved for all of it, once this much has come.
-constexpr std::uint64_t kBelieved = 1 << 20;
+// An announced length is believed, and memory reserved for all of it, once this much has come; of little
+// memory less, so that many bodies that wait for all of theirs do not take it from each other.
+constexpr std::uint64_t kBelieved = 1 << 20, kBelievedShare = 128;
 // What a body without announced length begins with.
 constexpr std::uint64_t kFirstRoom = 64 * 1024;
 constexpr std::size_t kReadBytes = 64 * 1024;
@@ -23,9 +24,15 @@ std::optional<Refusal> read_length(ClientSocket& socket, std::uint64_t length, c
                                    BodyBuffer& buffer, std::string& body) {
   Pace pace(limits.patience);
   char piece[kReadBytes];
-  if (!buffer.reserve(std::min(length, kBelieved))) return no_room();
+  const std::uint64_t first = std::clamp(buffer.most() / kBelievedShare, kFirstRoom, kBelieved);
+  const auto reserve = [&](std::uint64_t bytes) {
+    const bool reserved = buffer.reserve(bytes, Clock::now() + limits.patience);
+    pace = Pace(limits.patience);  // waiting for others was not the client's doing
+    return reserved;
+  };
+  if (!reserve(std::min(length, first))) return no_room();
   while (body.size() < length) {
-    if (body.size() == buffer.reserved() && !buffer.reserve(length)) return no_room();
+    if (body.size() == buffer.reserved() && !reserve(length)) return no_room();
     const std::uint64_t room = buffer.reserved() - body.size();
     const std::size_t count = socket.read(piece, std::min<std::uint64_t>(room, kReadBytes), pace.deadline());
     if (count == 0) return incomplete("the body ended early or came too slowly");
@@ -35,14 +42,16 @@ std::optional<Refusal> read_length(ClientSocket& socket, std::uint64_t length, c
   return std::nullopt;
 }
 
-std::optional<Refusal> add_piece(std::string_view piece, std::uint64_t chunk_left, std::uint64_t allowed,
+std::optional<Refusal> add_piece(std::string_view piece, std::uint64_t chunk_left, const BodyLimits& limits,
                                  BodyBuffer& buffer, std::string& body) {
+  const std::uint64_t allowed = limits.bytes;
   const std::uint64_t size = body.size() + piece.size();
   // How large it would have become in the end is not known.
   if (size > allowed || chunk_left > allowed - size) return body_too_large(0, allowed);
   if (size > buffer.reserved()) {
     const std::uint64_t doubled = std::max(kFirstRoom, 2 * buffer.reserved());
-    if (!buffer.reserve(std::max(size, std::min(doubled, allowed)))) return no_room();
+    if (!buffer.reserve(std::max(size, std::min(doubled, allowed)), Clock::now() + limits.patience))
+      return no_room();
   }
   body.append(piece);
   return std::nullopt;
@@ -56,8 +65,7 @@ std::optional<Refusal> read_chunked(ClientSocket& socket, const BodyLimits& limi
   for (;;) {
     const ChunkedBody::Step step = chunks.read(socket.buffered());
     if (!step.data.empty()) {
-      if (auto refusal = add_piece(step.data, chunks.chunk_left(), limits.bytes, buffer, body))
-        return refusal;
+      if (auto refusal = add_piece(step.data, chunks.chunk_left(), limits, buffer, body)) return refusal;
       pace.moved(step.data.size());
     }
     socket.consume(step.used);
@@ -73,10 +81,10 @@ std::optional<Refusal> read_chunked(ClientSocket& socket, const BodyLimits& limi
 
 }  // namespace
 
-bool BodyBuffer::reserve(std::uint64_t bytes) {
+bool BodyBuffer::reserve(std::uint64_t bytes, Clock::time_point deadline) {
   if (bytes <= reserved_) return true;
   Quota::Lease& next = leases_[1 - current_];
-  if (!next.grow_to(bytes)) return false;
+  if (!next.grow_to(bytes, deadline, nullptr)) return false;
   // reserve() of a string that holds something makes room for twice as much as it did, wanted or not.
   std::string larger;
   larger.reserve(bytes);

@@ -1,8 +1,9 @@
 #pragma once
 // Reads the body of a request, within the bounds of size, memory and time.
 //
-// Memory is reserved before it is used and in few large steps. If bodies grew piece by piece, many half-read
-// ones could hold all of it between them, each in want of a little more, and none would ever be complete.
+// Memory is reserved before it is used and in few large steps, and waited for while others have it. If bodies
+// grew piece by piece, many half-read ones could hold all of it between them, each in want of a little more,
+// and none would ever be complete.
 
 #include <chrono>
 #include <cstddef>
@@ -21,16 +22,18 @@ namespace subdivd::server {
 class BodyBuffer {
  public:
   BodyBuffer(Quota& memory, std::string& body)
-      : body_(body), leases_{Quota::Lease(memory), Quota::Lease(memory)} {}
+      : memory_(memory), body_(body), leases_{Quota::Lease(memory), Quota::Lease(memory)} {}
 
-  // Room for `bytes` in all; false (and nothing changed) when the memory is not there. While the body moves,
-  // the old room and the new one are both paid for.
-  bool reserve(std::uint64_t bytes);
+  // Room for `bytes` in all; false (and nothing changed) when the memory is not there until `deadline`. While
+  // the body moves, the old room and the new one are both paid for.
+  bool reserve(std::uint64_t bytes, Clock::time_point deadline);
+  std::uint64_t most() const { return memory_.total(); }
   std::uint64_t reserved() const { return reserved_; }
   // Frees the body and gives its memory back.
   void release();
 
  private:
+  Quota& memory_;
   std::string& body_;
   Quota::Lease leases_[2];
   std::size_t current_ = 0;
