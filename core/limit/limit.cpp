@@ -123,14 +123,19 @@ void Ring<Real>::set_faces(const Topology& topology, Index v, const Pace& pace) 
     pace.spend(8);
     return !is_infinite(edge_sharpness[in_ring(e)]);
   };
-  for (const Topology::Fan& fan : topology.fans(v, passable, pace)) {
-    Sector sector{{}, fan.closed};
+  const Topology::Fans fans = topology.fans(v, passable, pace);
+  sector_edges.reserve(wedges.size() + fans.size());
+  const auto size = [&] { return static_cast<Index>(sector_edges.size()); };
+  for (std::size_t k = 0; k < fans.size(); ++k) {
+    const Topology::Fan fan = fans[k];
+    Sector sector{size(), 0, fan.closed};
     for (Index h : fan.corners) {
       pace.spend(8);
-      sector.edges.push_back(position(h));
+      sector_edges.push_back(position(h));
     }
-    if (!fan.closed) sector.edges.push_back(position(Topology::prev(fan.corners.back())));
-    sectors.push_back(std::move(sector));
+    if (!fan.closed) sector_edges.push_back(position(Topology::prev(fan.corners.back())));
+    sector.end = size();
+    sectors.push_back(sector);
   }
 }
 
@@ -240,9 +245,8 @@ void LimitRing<Scheme, Real>::step(std::size_t level) {
 // The ring's edges in cyclic order from the crease on.
 template <class Scheme, class Real>
 std::vector<Index> LimitRing<Scheme, Real>::dart_order() const {
-  std::vector<Index> order = ring_.sectors[0].edges;
-  order.pop_back();  // the crease again
-  return order;
+  const auto edges = edges_of(ring_.sectors[0]);
+  return {edges.begin(), edges.end() - 1};  // the last is the crease again
 }
 
 template <class Scheme, class Real>
@@ -308,6 +312,7 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
 
 template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
+  const auto edges = edges_of(sector);
   Frame<Real> frame;
   // Divided, not multiplied by the inverse: that of a denormal number is infinite.
   auto spoke = [&](Index edge, Real unit, Real out[3]) {
@@ -315,7 +320,7 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
       out[c] = (ring_.neighbors[std::size_t{edge} * 3 + c] - ring_.center[c]) / unit;
   };
   Real largest = 0;
-  for (Index edge : sector.edges) {
+  for (Index edge : edges) {
     pace_.spend(2);
     Real along[3];
     spoke(edge, 1, along);
@@ -323,12 +328,12 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
   }
   if (largest == 0) return frame;
   Real total = 0;
-  const std::size_t n = sector.edges.size();
+  const std::size_t n = edges.size();
   for (std::size_t k = 0; k + 1 < n + (sector.closed ? 1 : 0); ++k) {
     pace_.spend(4);
     Real a[3], b[3], area[3];
-    spoke(sector.edges[k], largest, a);
-    spoke(sector.edges[(k + 1) % n], largest, b);
+    spoke(edges[k], largest, a);
+    spoke(edges[(k + 1) % n], largest, b);
     cross(a, b, area);
     for (int c = 0; c < 3; ++c) {
       frame.normal[c] += area[c];
@@ -353,23 +358,24 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
 
 template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
+  const auto edges = edges_of(sector);
   Frame<Real> frame;
-  const auto faces = static_cast<Index>(sector.edges.size() - (sector.closed ? 0 : 1));
-  const bool returns = !sector.closed && sector.edges.front() == sector.edges.back();
+  const auto faces = static_cast<Index>(edges.size() - (sector.closed ? 0 : 1));
+  const bool returns = !sector.closed && edges.front() == edges.back();
   const Frame<Real> mean = mean_frame(sector);
   if (sector.closed) {
-    apply_to_spokes(scheme_.smooth_tangent_u(faces, pace_), sector.edges, frame.u);
-    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), sector.edges, frame.v);
+    apply_to_spokes(scheme_.smooth_tangent_u(faces, pace_), edges, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), edges, frame.v);
   } else if (rule_ == Rule::dart) {
     const std::vector<Index> order = dart_order();
     apply_to_spokes(scheme_.dart_tangent_u(faces, pace_), order, frame.u);
     apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), order, frame.v);
   } else if (rule_ == Rule::crease && !returns) {
-    const Index ends[2] = {sector.edges.front(), sector.edges.back()};
+    const Index ends[2] = {edges.front(), edges.back()};
     apply_to_spokes({0, {1, -1}}, ends, frame.u);
-    apply_to_spokes(scheme_.crease_tangent_across(faces, pace_), sector.edges, frame.v);
+    apply_to_spokes(scheme_.crease_tangent_across(faces, pace_), edges, frame.v);
   } else if (rule_ == Rule::corner && faces <= 2 && !returns) {
-    const Index ends[2] = {sector.edges.front(), sector.edges.back()};
+    const Index ends[2] = {edges.front(), edges.back()};
     apply_to_spokes({-1, {1, 0}}, ends, frame.u);
     apply_to_spokes({-1, {0, 1}}, ends, frame.v);
   } else {

@@ -35,7 +35,7 @@ struct Ring {
     Index from = 0, to = 0;
   };
   struct Sector {              // the faces between two infinitely sharp edges, or all
-    std::vector<Index> edges;  // of the ring, counter-clockwise; open: one more than there are faces
+    Index begin = 0, end = 0;  // in sector_edges; open: one more than there are faces
     bool closed = false;
   };
 
@@ -49,6 +49,7 @@ struct Ring {
   std::vector<DecaySum> around;
   std::vector<float> far_child;  // one level on, of the halves that are not next to the vertex
   std::vector<Wedge> wedges;
+  std::vector<Index> sector_edges;  // of the ring, sector by sector, counter-clockwise
   std::vector<Sector> sectors;
 
   // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
@@ -92,6 +93,9 @@ class LimitRing {
   using Sector = typename Ring<Real>::Sector;
 
   bool settled() const;
+  std::span<const Index> edges_of(const Sector& sector) const {
+    return std::span(ring_.sector_edges).subspan(sector.begin, sector.end - sector.begin);
+  }
   void step(std::size_t level);
   std::vector<Index> count_faces() const;
   std::vector<Real> sum_opposite() const;

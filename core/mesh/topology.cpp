@@ -1,7 +1,6 @@
 #include "core/mesh/topology.h"
 
 #include <cstdint>
-#include <functional>
 
 #include "core/mesh/scan.h"
 
@@ -244,22 +243,6 @@ void Topology::list_non_manifold(const Pace& pace) {
     for (const Index v : edges_.vertices[e])
       if (is_non_manifold_vertex(v)) vertex_edges_[ends[v]++] = e;
   });
-}
-
-std::vector<Topology::Fan> Topology::in_order_of_corners(std::vector<Fan> fans, const Pace& pace) {
-  // Each one's lowest corner is looked for once: comparing the fans themselves would be quadratic where one
-  // of them has half the corners of a hub.
-  std::vector<std::pair<Index, std::size_t>> order;
-  order.reserve(fans.size());
-  for (std::size_t k = 0; k < fans.size(); ++k) {
-    pace.spend(fans[k].corners.size());
-    order.emplace_back(*std::ranges::min_element(fans[k].corners), k);
-  }
-  pace.sort(order.begin(), order.end(), std::less<>());
-  std::vector<Fan> sorted;
-  sorted.reserve(fans.size());
-  for (const auto& [corner, k] : order) sorted.push_back(std::move(fans[k]));
-  return sorted;
 }
 
 }  // namespace subdivd

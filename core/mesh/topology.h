@@ -98,11 +98,38 @@ class Topology {
   // is true and that two faces share in agreement. A fan that closes on itself starts at the lowest of its
   // corners, fans are ordered by their lowest corner.
   struct Fan {
-    std::vector<Index> corners;
+    std::span<const Index> corners;
     bool closed = false;
   };
+  // In two arrays: a hub may have millions of fans, and as many small blocks of memory would have to be
+  // freed.
+  class Fans {
+   public:
+    std::size_t size() const { return ranges_.size(); }
+    Fan operator[](std::size_t k) const {
+      return {std::span(corners_).subspan(ranges_[k].begin, ranges_[k].end - ranges_[k].begin),
+              ranges_[k].closed};
+    }
+
+   private:
+    friend class Topology;
+    struct Range {
+      Index lowest, begin, end;  // lowest: of the corners
+      bool closed;
+    };
+    void begin_fan() { ranges_.push_back({kNoIndex, size_of_corners(), size_of_corners(), false}); }
+    void add(Index corner) {
+      corners_.push_back(corner);
+      ranges_.back().end = size_of_corners();
+      ranges_.back().lowest = std::min(ranges_.back().lowest, corner);
+    }
+    Index size_of_corners() const { return static_cast<Index>(corners_.size()); }
+
+    std::vector<Index> corners_;
+    std::vector<Range> ranges_;
+  };
   template <class Passable>
-  std::vector<Fan> fans(Index v, Passable passable, const Pace& pace = {}) const {
+  Fans fans(Index v, Passable passable, const Pace& pace = {}) const {
     return is_non_manifold_vertex(v) ? scattered_fans(v, passable, pace) : fans_of_one(v, passable, pace);
   }
 
@@ -122,10 +149,9 @@ class Topology {
   // The other of two half-edges along e; kNoIndex at a border.
   Index across(Index e, Index h) const { return edges_.sides[e][0] ^ edges_.sides[e][1] ^ h; }
   template <class Passable>
-  std::vector<Fan> fans_of_one(Index v, Passable passable, const Pace& pace) const;
+  Fans fans_of_one(Index v, Passable passable, const Pace& pace) const;
   template <class Passable>
-  std::vector<Fan> scattered_fans(Index v, Passable passable, const Pace& pace) const;
-  static std::vector<Fan> in_order_of_corners(std::vector<Fan> fans, const Pace& pace);
+  Fans scattered_fans(Index v, Passable passable, const Pace& pace) const;
 
   Index vertex_count_ = 0;
   std::vector<Index> triangles_;
@@ -135,41 +161,37 @@ class Topology {
   std::vector<Index> crowd_half_edges_, crowd_offsets_;  // of the non-manifold edges
 };
 
-// What building a topology takes beside what it holds in the end, at most: the edges' homes while they are
-// found (edges.cpp), room for edges that grows, half-edges between hubs.
-inline Count topology_building_bytes(Count vertices, Count faces) {
-  const bool has_homes = vertices <= 3 * faces;
-  return 84 * faces + (has_homes ? 68 * vertices : 8 * vertices + 36 * faces);
-}
-
 // Cuts the fan that the vertex has at the edges that may not be passed.
 template <class Passable>
-std::vector<Topology::Fan> Topology::fans_of_one(Index v, Passable passable, const Pace& pace) const {
+Topology::Fans Topology::fans_of_one(Index v, Passable passable, const Pace& pace) const {
   const auto corners = vertex_corners(v), edges = vertex_edges(v);
   const bool closed = corners.size() == edges.size();
   const std::size_t count = corners.size();
-  std::vector<Fan> result;
+  Fans result;
   if (count == 0) return result;
   // A closed fan is cut open at the first wall.
   std::size_t start = 0;
-  if (closed) {
+  if (closed)
     while (start < count && passable(edges[start])) {
       pace.spend(1);
       ++start;
     }
-    if (start == count) return {{{corners.begin(), corners.end()}, true}};
-  }
+  const bool whole = start == count;
   for (std::size_t k = 0; k < count; ++k) {
     pace.spend(4);
     const std::size_t at = (start + k) % count;
-    if (k == 0 || !passable(edges[at])) result.emplace_back();
-    result.back().corners.push_back(corners[at]);
+    if (k == 0 || (!whole && !passable(edges[at]))) result.begin_fan();
+    result.add(corners[at]);
   }
-  return in_order_of_corners(std::move(result), pace);
+  result.ranges_.back().closed = whole;
+  if (result.size() > 1)
+    pace.sort(result.ranges_.begin(), result.ranges_.end(),
+              [](const Fans::Range& a, const Fans::Range& b) { return a.lowest < b.lowest; });
+  return result;
 }
 
 template <class Passable>
-std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable, const Pace& pace) const {
+Topology::Fans Topology::scattered_fans(Index v, Passable passable, const Pace& pace) const {
   const auto corners = vertex_corners(v);
   // The corner before h, clockwise: across the edge of h.
   auto before = [&](Index h) {
@@ -177,32 +199,40 @@ std::vector<Topology::Fan> Topology::scattered_fans(Index v, Passable passable, 
     return g != kNoIndex && passable(half_edge_edge(h)) ? next(g) : kNoIndex;
   };
   auto after = [&](Index h) { return passable(half_edge_edge(prev(h))) ? mate(prev(h)) : kNoIndex; };
-  std::vector<Fan> result;
+  Fans result;
   std::vector<unsigned char> done(corners.size(), 0);
   auto position = [&](Index h) {
     return static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), h) - corners.begin());
   };
   for (std::size_t c = 0; c < corners.size(); ++c) {
     if (done[c] != 0) continue;
-    Fan fan;
+    bool closed = false;
     Index start = corners[c];
     for (Index h = before(start); h != kNoIndex; h = before(h)) {
       pace.spend(4);
       start = h;
       if (h == corners[c]) {
-        fan.closed = true;
+        closed = true;
         break;
       }
     }
+    result.begin_fan();
+    result.ranges_.back().closed = closed;
     for (Index h = start; h != kNoIndex; h = after(h)) {
       pace.spend(8);
       done[position(h)] = 1;
-      fan.corners.push_back(h);
-      if (fan.closed && after(h) == start) break;
+      result.add(h);
+      if (closed && after(h) == start) break;
     }
-    result.push_back(std::move(fan));
   }
   return result;
+}
+
+// What building a topology takes beside what it holds in the end, at most: the edges' homes while they are
+// found (edges.cpp), room for edges that grows, half-edges between hubs.
+inline Count topology_building_bytes(Count vertices, Count faces) {
+  const bool has_homes = vertices <= 3 * faces;
+  return 84 * faces + (has_homes ? 68 * vertices : 8 * vertices + 36 * faces);
 }
 
 }  // namespace subdivd

@@ -107,7 +107,8 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
                        {},
                        {},
                        {{0, 1}, {1, 2}, {2, 3}},
-                       {{{0, 1, 2, 3}, false}}};
+                       {0, 1, 2, 3},
+                       {{0, 4, false}}};
       for (const Real* neighbour : ring)
         whole.neighbors.insert(whole.neighbors.end(), neighbour, neighbour + 3);
       frames.add(LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0]);
@@ -136,7 +137,8 @@ void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position
     ring.far_child = {net_.segment_sharpness(level + 1, e, 2 * k + 1), 0, 0,
                       net_.segment_sharpness(level + 1, e, 2 * k - 2), 0, 0};
     ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
-    ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
+    ring.sector_edges = {0, 1, 2, 3, 4, 5};
+    ring.sectors = {{0, 6, true}};
     const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), std::move(ring));
     if (out.limits != nullptr) std::ranges::copy(limit.position(), out.limits + Count{point} * width_);
     if (!out.wants_frames()) continue;

@@ -312,7 +312,8 @@ class Evaluation {
       append(ring.neighbors, neighbour);
     ring.edge_sharpness.assign(6, 0.0f);
     ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
-    ring.sectors = {{{0, 1, 2, 3, 4, 5}, true}};
+    ring.sector_edges = {0, 1, 2, 3, 4, 5};
+    ring.sectors = {{0, 6, true}};
     return LimitRing<Scheme, Real>(scheme_, CreaseMethod::uniform, std::move(ring)).frames()[0];
   }
 

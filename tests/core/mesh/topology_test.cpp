@@ -162,7 +162,9 @@ TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
     const Topology topology = of(mesh);
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       std::vector<Index> seen;
-      for (const Topology::Fan& fan : topology.fans(v, [](Index) { return true; })) {
+      const Topology::Fans fans = topology.fans(v, [](Index) { return true; });
+      for (std::size_t f = 0; f < fans.size(); ++f) {
+        const Topology::Fan fan = fans[f];
         for (std::size_t k = 0; k + 1 < fan.corners.size(); ++k)
           ASSERT_EQ(topology.mate(Topology::prev(fan.corners[k])), fan.corners[k + 1]);
         if (fan.closed) {
@@ -181,7 +183,8 @@ TEST(Fans, end_at_edges_that_may_not_be_passed) {
   const auto fans = topology.fans(0, [&](Index e) { return e != wall; });
   ASSERT_EQ(fans.size(), 1u);
   EXPECT_FALSE(fans[0].closed);
-  EXPECT_EQ(fans[0].corners, (std::vector<Index>{0, 3, 6, 9}));
+  const auto corners = fans[0].corners;
+  EXPECT_EQ(std::vector(corners.begin(), corners.end()), (std::vector<Index>{0, 3, 6, 9}));
 }
 
 }  // namespace
