@@ -35,7 +35,7 @@ double control_tables(const Counts& base, double channels) {
   return 130 * base.points + (300 + 70 * channels) * base.faces;
 }
 double level_tables(const Counts& level, double channels) {
-  return (40 + 20 * channels) * level.vertices + 30 * level.edges + (95 + 30 * channels) * level.faces;
+  return (45 + 20 * channels) * level.vertices + 33 * level.edges + (105 + 30 * channels) * level.faces;
 }
 
 // FarLevel<double> without primvars: place, rule, point, limit and two tangents of every vertex; corners,

@@ -1,5 +1,6 @@
 #pragma once
-// The verdict of the comparison between our core and OpenSubdiv: plain data, no OpenSubdiv in sight.
+// The verdict of the comparison between our core and OpenSubdiv: plain data, no OpenSubdiv in sight, nothing
+// to link with.
 
 #include <optional>
 #include <string>
@@ -18,7 +19,11 @@ enum class Verdict {
 };
 
 // Of two parts together: failed wins over nothing_compared, that over passed.
-Verdict both(Verdict a, Verdict b);
+inline Verdict both(Verdict a, Verdict b) {
+  for (const Verdict winner : {Verdict::failed, Verdict::nothing_compared})
+    if (a == winner || b == winner) return winner;
+  return Verdict::passed;
+}
 
 // Deviations of one quantity at one level. `relative` divides by the diagonal of the control points' bounding
 // box (positions, limits) or by the largest magnitude among the channel's control values (primvars, 1 when
@@ -45,13 +50,23 @@ struct LevelReport {
   std::vector<Deviation> deviations;
 
   // failed, too, when the connectivity differs; nothing_compared without deviations.
-  Verdict verdict() const;
+  Verdict verdict() const {
+    if (!connectivity_identical) return Verdict::failed;
+    if (deviations.empty()) return Verdict::nothing_compared;
+    Verdict all = Verdict::passed;
+    for (const Deviation& deviation : deviations) all = both(all, deviation.verdict);
+    return all;
+  }
 };
 
 // Of consecutive levels, the last of which is the one that was asked for: failed when any of them has failed,
 // otherwise the last one's. What could not be compared on the way there (limits while semi-sharpness lasts)
 // is no loss when it could be in the end. nothing_compared without levels.
-Verdict verdict_of(const std::vector<LevelReport>& levels);
+inline Verdict verdict_of(const std::vector<LevelReport>& levels) {
+  for (const LevelReport& level : levels)
+    if (level.verdict() == Verdict::failed) return Verdict::failed;
+  return levels.empty() ? Verdict::nothing_compared : levels.back().verdict();
+}
 
 struct MeshReport {
   std::string name;
@@ -82,7 +97,14 @@ struct Report {
   std::vector<SurfaceReport> surfaces;
 
   // Of all meshes, curves and surfaces; nothing_compared without any.
-  Verdict verdict() const;
+  Verdict verdict() const {
+    if (meshes.empty() && curves.empty() && surfaces.empty()) return Verdict::nothing_compared;
+    Verdict all = Verdict::passed;
+    for (const MeshReport& part : meshes) all = both(all, part.verdict);
+    for (const CurveReport& part : curves) all = both(all, part.verdict);
+    for (const SurfaceReport& part : surfaces) all = both(all, part.verdict);
+    return all;
+  }
 };
 
 }  // namespace subdivd::oracle

@@ -201,10 +201,12 @@ TEST(write, a_report_tells_the_worst_place) {
 
 // Of six edges that are all semi-sharp no limit can be compared; that was called a pass.
 TEST(write, a_report_does_not_pass_what_was_not_compared) {
-  oracle::Deviation points{.quantity = "points", .compared = 10, .verdict = oracle::Verdict::passed};
-  const oracle::Deviation limits{.quantity = "limitPoints", .excepted = 10, .exception = "semi-sharp"};
+  oracle::LevelReport level{1, true, 10, 16, 0, std::vector<oracle::Deviation>(2)};
+  level.deviations[0].compared = 10;
+  level.deviations[0].verdict = oracle::Verdict::passed;
+  level.deviations[1].excepted = 10;
   oracle::Report report;
-  report.meshes.push_back({"m", "double", {{1, true, 10, 16, 0, {points, limits}}}});
+  report.meshes.emplace_back().levels = {level};
   report.meshes[0].verdict = verdict_of(report.meshes[0].levels);
   const json verification = json::parse(subdivd::proto::json::report(report));
   const json& mesh = verification["meshes"][0];

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <string>
 
+#include "core/oracle/far_curves.h"
+#include "core/oracle/far_surfaces.h"
 #include "core/oracle/verify.h"
 #include "tests/core/oracle/allocations.h"
 #include "tests/core/oracle/fixtures.h"
@@ -94,6 +96,42 @@ TEST(Memory, of_verifying_stays_within_what_is_predicted) {
       EXPECT_GE(share, 0.2) << shape.name << ", level " << level << ": too careful";
     }
   }
+}
+
+TEST(Memory, of_verifying_curves_stays_within_what_is_predicted) {
+  if (!kCounts) GTEST_SKIP();
+  for (const Index width : {1u, 3u, 17u})
+    for (const CurveWrap wrap : {CurveWrap::pinned, CurveWrap::periodic})
+      for (const Index level : {0u, 1u, 4u}) {
+        ControlCurves curves;
+        curves.wrap = wrap;
+        curves.width = width;
+        curves.vertex_counts.assign(20, 30);
+        for (Index k = 0; k < 600 * width; ++k) curves.points.push_back(k * 7919 % 1000);
+        const CurveOptions options{.level = level, .limit = true};
+        const auto ours = predict_bytes<double>(curves, options);
+        ASSERT_TRUE(ours.ok());
+        const std::int64_t peak = peak_of([&] { return verify<double>(curves, options, Budget{}).ok(); });
+        EXPECT_LE(double(peak) / double(far_curve_bytes(curves, level) + 2 * *ours), 1)
+            << "width " << width << ", level " << level;
+      }
+}
+
+TEST(Memory, of_verifying_surfaces_stays_within_what_is_predicted) {
+  if (!kCounts) GTEST_SKIP();
+  for (const Index width : {1u, 3u, 4u})
+    for (const CurveWrap wrap : {CurveWrap::pinned, CurveWrap::periodic})
+      for (const Index level : {0u, 1u, 4u}) {
+        ControlPatch patch{"", 20, 10, 3, 3, wrap, wrap, width, {}};
+        for (Index k = 0; k < 200 * width; ++k) patch.points.push_back(k * 7919 % 1000);
+        PatchOptions options{.level = level, .limit = true, .normals = width == 3};
+        options.faces = PatchFaces::quads;
+        const auto ours = predict_bytes<double>(patch, options);
+        ASSERT_TRUE(ours.ok());
+        const std::int64_t peak = peak_of([&] { return verify<double>(patch, options, Budget{}).ok(); });
+        EXPECT_LE(double(peak) / double(far_surface_bytes(patch, level) + 2 * *ours), 1)
+            << "width " << width << ", level " << level;
+      }
 }
 
 // Every allocation in turn, Far's among them, is the one that there is no memory for.

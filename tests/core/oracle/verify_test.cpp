@@ -1,6 +1,9 @@
 #include "core/oracle/verify.h"
 
+#include <atomic>
 #include <chrono>
+#include <thread>
+#include <vector>
 
 #include "tests/core/oracle/fixtures.h"
 
@@ -69,6 +72,37 @@ TEST(Verify, stops_in_the_middle_of_its_work) {
   const auto report = verify<double>(shapes::big_torus(60, 60, 1), everything(4), budget);
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().code, ErrorCode::deadline_exceeded);
+}
+
+// Far's callbacks are the process's. Several at once say what each says alone, beside one that Far refuses
+// (its crease runs along no edge).
+TEST(Verify, says_the_same_on_many_threads_at_once) {
+  const auto alone = verify<double>(rich_mesh(), everything(2), Budget{});
+  ASSERT_TRUE(alone.ok());
+  ControlMesh refused = shapes::icosahedron();
+  shapes::crease(refused, {0, 11}, 2);
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 6; ++t)
+    threads.emplace_back([&, t] {
+      for (int k = 0; k < 10; ++k) {
+        if (t == 0) {
+          wrong += verify<double>(refused, everything(1), Budget{}).ok() ? 1 : 0;
+          continue;
+        }
+        const auto report = verify<double>(rich_mesh(), everything(2), Budget{});
+        if (!report || report->verdict != alone->verdict) {
+          ++wrong;
+          continue;
+        }
+        for (std::size_t d = 0; d < report->levels[1].deviations.size(); ++d)
+          wrong += report->levels[1].deviations[d].max_relative == alone->levels[1].deviations[d].max_relative
+                       ? 0
+                       : 1;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(Verify, compares_limits_and_normals_only_when_asked) {
