@@ -89,15 +89,18 @@ Count plan_bytes(const ControlMesh& mesh) {
 }
 
 template <class Real>
-Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes) {
+Result<Count> working_bytes(const RefineRequest& request, const Budget& budget,
+                            std::vector<RefinedSize>& sizes) {
   Count bytes = 0;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    if (auto stop = budget.poll()) return *stop;
     Result<RefinedSize> size = predict_size<Real>(request.meshes[i], mesh_options(request));
     if (!size) return blame_input(request, size.error(), "meshes", i);
     bytes += size->bytes + plan_bytes(request.meshes[i]);
     sizes.push_back(std::move(*size));
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
+    if (auto stop = budget.poll()) return *stop;
     const Result<Count> size =
         predict_bytes<Real>(request.curves[i], curve_options(request, request.curves[i]));
     if (!size) return blame_input(request, size.error(), "curves", i);
@@ -133,12 +136,11 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
   return request;
 }
 
-Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
-                                  [[maybe_unused]] const Budget& budget) {
+Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits, const Budget& budget) {
   std::vector<RefinedSize> sizes;
   const Result<Count> working = answer_precision(request) == Precision::single_precision
-                                    ? working_bytes<float>(request, sizes)
-                                    : working_bytes<double>(request, sizes);
+                                    ? working_bytes<float>(request, budget, sizes)
+                                    : working_bytes<double>(request, budget, sizes);
   if (!working) return working.error();
   Prediction prediction;
   prediction.working_bytes = *working;
