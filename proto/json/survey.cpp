@@ -140,7 +140,7 @@ class Surveyor {
 Count Survey::reading_bytes() const {
   // A number takes a double, or an index; of lists their lengths, too. Arrays are allocated at once, as long
   // as there are commas in them. Objects are meshes, curves, surfaces and primvars in vectors that grow.
-  constexpr Count kNumber = 8, kObject = 4096, kSomething = 65536;
+  constexpr Count kNumber = 8, kObject = 2048, kSomething = 65536;
   return kSomething + kNumber * (commas + 2 * brackets) + kObject * braces + 4 * string_bytes;
 }
 

@@ -49,7 +49,7 @@ Result<void> for_each_curve(const proto::CurveRequest& request, ReusedMemory& me
     CurvePlace place;
     for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
       if (auto stop = memory.budget().poll()) return *stop;
-      memory.free_all();
+      memory.free_to(0);
       if (auto taken = memory.budget().take_memory(spline_bytes(curves, c)); !taken) return taken;
       auto curve = make(curves, c, place);
       if (!curve) return proto::blame_input(request.curves, std::move(curve).error(), "curves", i);

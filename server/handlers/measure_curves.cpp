@@ -16,7 +16,7 @@ using proto::CurveTask;
 
 constexpr double kLengthTolerance = 1e-9;
 
-Result<void> measure_closest(const Spline& spline, const CurveTask& task, const Budget& budget,
+Result<void> measure_closest(const Spline& spline, const CurveTask& task, ReusedMemory& memory,
                              CurveMeasure& measure) {
   measure.closest.reserve(task.closest_to.size() / std::max<Index>(task.closest_width, 1));
   if (!task.closest_to.empty() && task.closest_width != spline.dimension())
@@ -26,10 +26,13 @@ Result<void> measure_closest(const Spline& spline, const CurveTask& task, const 
                  {"closestTo"},
                  0,
                  0};
+  const Count before = memory.used();
   for (std::size_t at = 0; at < task.closest_to.size(); at += task.closest_width) {
-    auto closest = closest_point(spline, std::span(task.closest_to).subspan(at, task.closest_width), budget);
+    auto closest =
+        closest_point(spline, std::span(task.closest_to).subspan(at, task.closest_width), memory.budget());
     if (!closest) return at_member(std::move(closest).error(), "closestTo", at / task.closest_width);
     measure.closest.push_back(*std::move(closest));
+    memory.free_to(before);
   }
   return {};
 }
@@ -47,7 +50,7 @@ Result<Polyline> flattened(const Curve& drawn, const ControlCurves& curves, Coun
 
 // What has no formula has a polyline, and that only.
 Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve, Count,
-                              const CurveTask& task, const Budget& budget) {
+                              const CurveTask& task, ReusedMemory& memory) {
   if (!task.flatten || task.equal_lengths || task.convergence || !task.closest_to.empty())
     return Error{
         ErrorCode::unsupported,
@@ -56,7 +59,7 @@ Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves&
         0,
         0};
   CurveMeasure measure;
-  auto polyline = flattened(drawn, curves, curve, task, budget);
+  auto polyline = flattened(drawn, curves, curve, task, memory.budget());
   if (!polyline) return std::move(polyline).error();
   measure.polyline = *std::move(polyline);
   return measure;
@@ -64,7 +67,9 @@ Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves&
 
 // `first`: where the points of the curve begin.
 Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve, Count first,
-                              const CurveTask& task, const Budget& budget) {
+                              const CurveTask& task, ReusedMemory& memory) {
+  const Budget& budget = memory.budget();
+  const Count before = memory.used();  // one after the other takes the same memory
   CurveMeasure measure;
   auto length = arc_length(spline,
                            {.tolerance = task.tolerance.value_or(kLengthTolerance),
@@ -72,15 +77,18 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
                            budget);
   if (!length) return at_member(std::move(length).error(), "tolerance");
   measure.length = *length;
+  memory.free_to(before);
   auto box = bounds(spline, budget);
   if (!box) return std::move(box).error();
   measure.box = *std::move(box);
-  if (auto done = measure_closest(spline, task, budget, measure); !done) return std::move(done).error();
+  memory.free_to(before);
+  if (auto done = measure_closest(spline, task, memory, measure); !done) return std::move(done).error();
   if (task.flatten) {
     auto polyline = flattened(spline, curves, curve, task, budget);
     if (!polyline) return std::move(polyline).error();
     measure.polyline = *std::move(polyline);
   }
+  memory.free_to(before);
   if (task.equal_lengths) {
     auto parameters = equal_parameters(spline, *task.equal_lengths,
                                        {.tolerance = kPositionOptions.tolerance,
@@ -89,6 +97,7 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
     if (!parameters) return at_member(std::move(parameters).error(), "equalLengths");
     measure.equal_parameters = *std::move(parameters);
   }
+  memory.free_to(before);
   if (task.convergence) {
     auto convergence =
         measure_convergence(curves, static_cast<Index>(curve), first, *task.convergence, budget);
@@ -108,9 +117,7 @@ Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, 
     const ControlCurves& curves = request.curves.curves[set];
     if (ordinal == 0) first = 0;
     auto one = std::visit(
-        [&](const auto& drawn) {
-          return measured(drawn, curves, ordinal, first, request.task, memory.budget());
-        },
+        [&](const auto& drawn) { return measured(drawn, curves, ordinal, first, request.task, memory); },
         curve);
     first += curves.points_of_curve(ordinal);
     if (!one && one.error().where == Path{"basis"})

@@ -12,8 +12,9 @@ class ReusedMemory final : public MemoryGrant {
     if (budget.memory != nullptr) inner_.memory = this;
   }
 
-  // What was taken since the last call is free again.
-  void free_all() { used_ = 0; }
+  Count used() const { return used_; }
+  // What was taken since there were `used` bytes of it is free again.
+  void free_to(Count used) { used_ = used; }
   Result<void> take(Count bytes) override {
     used_ += bytes;
     if (used_ <= most_) return {};

@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "proto/json/text_writer.h"
@@ -140,6 +141,32 @@ TEST(round_trip, floats_keep_their_bits) {
   for (std::size_t i = 0; i < values.size(); ++i)
     ASSERT_EQ(std::bit_cast<std::uint32_t>(static_cast<float>(request->curves[0].points[i])),
               std::bit_cast<std::uint32_t>(values[i]));
+}
+
+// Short numbers are read by a division, long ones by std::from_chars: one way or the other, correctly
+// rounded.
+TEST(round_trip, decimals_of_every_length_are_read_as_strtod_reads_them) {
+  Random random(7);
+  std::string text;
+  std::vector<double> expected;
+  for (int i = 0; i < 200000; ++i) {
+    std::string number = random.below(2) == 0 ? "-" : "";
+    const std::size_t before = 1 + random.below(12), behind = random.below(12);
+    number += static_cast<char>('1' + random.below(9));
+    for (std::size_t k = 1; k < before; ++k) number += static_cast<char>('0' + random.below(10));
+    if (behind > 0) number += '.';
+    for (std::size_t k = 0; k < behind; ++k) number += static_cast<char>('0' + random.below(10));
+    if (random.below(8) == 0) number += "e" + std::to_string(static_cast<int>(random.below(80)) - 40);
+    expected.push_back(std::strtod(number.c_str(), nullptr));
+    text += (i > 0 ? "],[" : "[") + number;
+  }
+  const auto request = decode(R"({"curves":[{"points":[)" + text + "]]}]}");
+  ASSERT_TRUE(request.ok());
+  ASSERT_EQ(request->curves[0].points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(request->curves[0].points[i]),
+              std::bit_cast<std::uint64_t>(expected[i]))
+        << i;
 }
 
 TEST(round_trip, the_writer_stops_at_what_is_not_finite) {

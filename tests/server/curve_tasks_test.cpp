@@ -421,8 +421,8 @@ TEST(CurveTasks, round_their_results_to_the_precision_that_is_asked_for) {
   const json length = ask(Kind::measure, circle())["measures"][0]["length"]["value"];
   EXPECT_PRED2(rounded, ask(Kind::measure, with(circle(), single))["measures"][0]["length"]["value"], length);
   const json convert = with(circle(), {{"range", {0.3, 2}}});
-  EXPECT_PRED2(rounded, ask(Kind::convert, with(convert, single))["curves"][0]["points"][0][0],
-               ask(Kind::convert, convert)["curves"][0]["points"][0][0]);
+  EXPECT_PRED2(rounded, ask(Kind::convert, with(convert, single))["points"][0][0],
+               ask(Kind::convert, convert)["points"][0][0]);
 }
 
 TEST(CurveTasks, measure_a_million_curves_in_linear_time_or_stop) {
