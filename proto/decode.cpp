@@ -76,6 +76,9 @@ void override_meshes(RefineRequest& request) {
   }
 }
 
+// Refining curves and surfaces takes, beside what comes out, less than that again for the levels in between.
+constexpr Count kPassingFactor = 2;
+
 template <class Real>
 Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes,
                             const Budget& budget) {
@@ -91,13 +94,13 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
     const Result<Count> size =
         predict_bytes<Real>(request.curves[i], curve_options(request, request.curves[i]));
     if (!size) return blame_input(request, size.error(), "curves", i);
-    bytes += *size;
+    bytes += kPassingFactor * *size;
   }
   for (std::size_t i = 0; i < request.surfaces.size(); ++i) {
     const ControlPatch& surface = request.surfaces[i];
     const Result<Count> size = predict_bytes<Real>(surface, patch_options(request, surface));
     if (!size) return blame_input(request, size.error(), "surfaces", i);
-    bytes += *size;
+    bytes += kPassingFactor * *size;
   }
   return bytes;
 }

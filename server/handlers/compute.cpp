@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/curves/subdivision.h"
+#include "core/oracle/far.h"
 #include "core/oracle/far_curves.h"
 #include "core/oracle/far_surfaces.h"
 #include "core/oracle/verify.h"
@@ -84,6 +85,9 @@ Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request,
 
 Count oracle_bytes(const proto::RefineRequest& request) {
   Count bytes = 0;
+  for (const ControlMesh& mesh : request.meshes)
+    bytes += oracle::far_mesh_bytes(mesh, request.options.level) +
+             oracle::report_bytes(mesh, request.options.level);
   for (const ControlCurves& curves : request.curves)
     bytes += oracle::far_curve_bytes(curves, request.options.level);
   for (const ControlPatch& surface : request.surfaces)

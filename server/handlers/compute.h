@@ -14,8 +14,8 @@ namespace subdivd::server {
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
                                             Phases& phases);
 
-// Bytes that OpenSubdiv takes for the curves and surfaces of the request, which it refines as meshes: many
-// times their own. `request` is one whose refinement has been predicted.
+// Bytes that OpenSubdiv and the comparison take beside our own refinement: many times the answer's. `request`
+// is one whose refinement has been predicted.
 Count oracle_bytes(const proto::RefineRequest& request);
 
 // Our core against OpenSubdiv, for every mesh, curve and surface of the request.

@@ -20,11 +20,6 @@ namespace {
 
 using Clock = Budget::Clock;
 
-// Peaks of resident memory over the bytes of the core's arrays, measured on glTF and JSON meshes at levels 5
-// to 8 and rounded up: the engine's passing levels; OpenSubdiv keeps the topology of every level.
-constexpr Count kRefineFactor = 2;
-constexpr Count kOracleFactor = 6;
-
 // What a body may have to begin in the lane of small requests.
 constexpr std::size_t kSmallBody = std::size_t{64} << 10;
 
@@ -71,14 +66,20 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
   return problem_response(Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0});
 }
 
-// Sets aside what refining will take, with the answer, and what OpenSubdiv will.
-Result<void> take_predicted(const proto::RefineRequest& request, bool with_oracle,
-                            const proto::Limits& limits, const Budget& budget) {
+// Sets aside what refining will take, with the answer.
+Result<void> take_for_refining(const proto::RefineRequest& request, const proto::Limits& limits,
+                               const Budget& budget) {
   const auto predicted = proto::predict_refine(request, limits, budget);
   if (!predicted) return predicted.error();
-  return budget.take_memory(predicted->answer_bytes +
-                            predicted->working_bytes * (with_oracle ? kOracleFactor : kRefineFactor) +
-                            (with_oracle ? oracle_bytes(request) : 0));
+  return budget.take_memory(predicted->answer_bytes + predicted->working_bytes);
+}
+
+// Sets aside what verifying will take: it refines both here and in OpenSubdiv.
+Result<void> take_for_verifying(const proto::RefineRequest& request, const proto::Limits& limits,
+                                const Budget& budget) {
+  const auto predicted = proto::predict_refine(request, limits, budget);
+  if (!predicted) return predicted.error();
+  return budget.take_memory(predicted->working_bytes + oracle_bytes(request));
 }
 
 // ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
@@ -172,8 +173,9 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
   if (!decoded) return std::move(decoded).error();
   if (!choose_format(request, *decoded))
     return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
-  if (auto taken = take_predicted(*decoded, decoded->options.verify, limits_, budget); !taken)
-    return std::move(taken).error();
+  if (auto taken = take_for_refining(*decoded, limits_, budget); !taken) return std::move(taken).error();
+  if (decoded->options.verify)
+    if (auto taken = take_for_verifying(*decoded, limits_, budget); !taken) return std::move(taken).error();
   phases.end("read");
   auto answer = compute_refinement(*decoded, budget, phases);
   if (!answer) return std::move(answer).error();
@@ -193,7 +195,7 @@ Response GeometryHandlers::verify(Request& request) {
     Phases phases;
     const auto decoded = decode_any(request, limits_, budget);
     if (!decoded) return decoded.error();
-    if (auto taken = take_predicted(*decoded, true, limits_, budget); !taken) return std::move(taken).error();
+    if (auto taken = take_for_verifying(*decoded, limits_, budget); !taken) return std::move(taken).error();
     phases.end("read");
     const auto report = compute_report(*decoded, budget);
     if (!report) return report.error();
