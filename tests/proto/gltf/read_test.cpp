@@ -3,6 +3,7 @@
 #include "proto/gltf/read_lines.h"
 #include "proto/gltf/read_triangles.h"
 #include "tests/proto/gltf/pipeline.h"
+#include "tests/proto/gltf/unlimited.h"
 #include "tests/support/gltf_builder.h"
 
 namespace subdivd::test {
@@ -221,14 +222,17 @@ TEST(ReadLines, closes_chains_that_come_back) {
 }
 
 TEST(ReadLines, ends_chains_where_three_segments_meet) {
-  const auto chains = proto::gltf::chain_segments({0, 1, 0, 2, 0, 3, 3, 4}, 5);
-  EXPECT_THAT(chains.open, SizeIs(3));
-  EXPECT_THAT(chains.closed, IsEmpty());
+  Unlimited unlimited;
+  const auto chains = proto::gltf::chain_segments({0, 1, 0, 2, 0, 3, 3, 4}, 5, unlimited.work);
+  EXPECT_THAT(chains->open.lengths, SizeIs(3));
+  EXPECT_THAT(chains->closed.lengths, IsEmpty());
 }
 
 TEST(ReadLines, does_not_close_two_segments_between_the_same_points) {
-  const auto chains = proto::gltf::chain_segments({0, 1, 1, 0}, 2);
-  EXPECT_THAT(chains.open, ElementsAre(ElementsAre(0, 1, 0)));
+  Unlimited unlimited;
+  const auto chains = proto::gltf::chain_segments({0, 1, 1, 0}, 2, unlimited.work);
+  EXPECT_THAT(chains->open.vertices, ElementsAre(0, 1, 0));
+  EXPECT_THAT(chains->open.lengths, ElementsAre(3));
 }
 
 TEST(ReadLines, refines_colours_along) {
