@@ -15,7 +15,7 @@ struct Checker {
   Work& work;
   Count materials = 0;
   bool quantized = false;  // KHR_mesh_quantization is in use
-  Count primitives = 0;
+  Count primitive_count = 0;
   Count decoded_bytes = 0, empty_bytes = 0;
 
   Result<void> mesh(const Json& json, const Place& place);
@@ -129,9 +129,9 @@ Result<Count> Checker::indices(const Json& json, const Place& place) {
 
 Result<void> Checker::primitive(const Json& json, const Place& place) {
   if (auto stop = work.spend(64)) return *std::move(stop);
-  if (++primitives > kMaxPrimitives) {
+  if (++primitive_count > kMaxPrimitives) {
     return over_limit(
-        place, primitives, kMaxPrimitives,
+        place, primitive_count, kMaxPrimitives,
         "the meshes have more than the " + std::to_string(kMaxPrimitives) + " primitives that are allowed");
   }
   if (auto is = expect_object(json, place); !is) return is.error();

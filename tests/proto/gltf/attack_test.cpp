@@ -39,7 +39,9 @@ TEST_P(SmallBody, is_read_long_before_a_minute_has_passed) {
 
 TEST_P(SmallBody, goes_through_the_whole_pipeline_when_it_is_smaller) {
   const Attack& attack = GetParam();
-  const auto outcome = refine_gltf(attack.body(40), attack.format, {.level = 1});
+  proto::Options options;
+  options.level = 1;
+  const auto outcome = refine_gltf(attack.body(40), attack.format, options);
   if (outcome) {
     EXPECT_GE(outcome->predicted, outcome->bytes.size());
   } else {
@@ -94,7 +96,8 @@ TEST(Budgets, end_every_part_of_the_work) {
   const std::atomic<bool> gone{true};
   Budget budget;
   budget.cancelled = &gone;
-  proto::RefineRequest request = must_read(seamed_octahedron().glb(), {.level = 1});
+  proto::RefineRequest request = must_read(seamed_octahedron().glb());
+  request.options.level = 1;
   const auto size = predict_size<float>(request.meshes[0], {.level = 1, .normals = true});
   const auto predicted = proto::gltf::predicted_bytes(request, {*size}, budget);
   ASSERT_FALSE(predicted.ok());
