@@ -31,7 +31,7 @@ Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, const Place
         "the data URI is not of the form data:application/octet-stream;base64,…: it has no comma");
   const std::string_view head = uri.substr(0, comma);
   if (head.size() < kMark.size() || !equal_without_case(head.substr(head.size() - kMark.size()), kMark))
-    return error_at(place, ErrorCode::unsupported,
+    return error_at(place, ErrorCode::malformed,
                     "the data URI is not marked as Base64 (;base64 before the comma): percent-encoded bytes "
                     "are not read");
   auto bytes = decode_base64(uri.substr(comma + 1), work);

@@ -26,14 +26,15 @@ bool is_structural(char c) {
 }
 
 // Where the string that begins after its quote at `at` ends: its closing quote, or the end of the text.
-std::size_t end_of_string(std::string_view text, std::size_t at) {
-  for (std::size_t from = at;;) {
-    const std::size_t quote = text.find('"', from);
+Result<std::size_t> end_of_string(std::string_view text, std::size_t at, Work& work) {
+  std::size_t quote = text.find('"', at);
+  for (;;) {
     if (quote == std::string_view::npos) return text.size();
-    std::size_t slashes = 0;
-    while (quote - slashes > from && text[quote - slashes - 1] == '\\') ++slashes;
-    if (slashes % 2 == 0) return quote;
-    from = quote + 1;
+    const std::size_t slash = text.substr(0, quote).find('\\', at);
+    if (slash == std::string_view::npos) return quote;
+    at = slash + 2;
+    if (at > quote) quote = text.find('"', at);
+    if (auto stop = work.spend(1)) return *std::move(stop);
   }
 }
 
@@ -131,10 +132,11 @@ Result<Shape> Counter::count() {
       ++shape_.sizes[open_.back().ordinal];
       if (++shape_.values > limits_.max_values) return too_many();
     } else if (c == '"') {
-      const std::size_t end = end_of_string(text_, at);
-      text_of(end - at);
-      if (auto stop = work_.spend_bytes(end - at)) return *stop;
-      at = std::min(end + 1, text_.size());
+      const auto end = end_of_string(text_, at, work_);
+      if (!end) return end.error();
+      text_of(*end - at);
+      if (auto stop = work_.spend_bytes(*end - at)) return *std::move(stop);
+      at = std::min(*end + 1, text_.size());
     } else if (c != ':') {
       const std::size_t begin = at - 1;
       while (at < text_.size() && !is_structural(text_[at])) ++at;
@@ -303,7 +305,10 @@ Result<void> Parser::unescape(std::size_t begin, std::size_t end, std::string& o
 
 // From behind the opening quote to behind the closing one.
 Result<void> Parser::string(std::string& out) {
-  const std::size_t begin = at_, end = end_of_string(text_, begin);
+  const std::size_t begin = at_;
+  const auto found = end_of_string(text_, begin, work_);
+  if (!found) return found.error();
+  const std::size_t end = *found;
   if (end == text_.size()) return broken(text_.size(), "a string has no end");
   at_ = end + 1;
   if (auto good = check_text(begin, end); !good) return good;

@@ -103,7 +103,8 @@ Result<std::vector<Index>> used_vertices(const PrimitiveData& data, Work& work) 
   }
   const auto held = work.hold(data.vertex_count + kBlockBytes);
   if (!held) return held.error();
-  std::vector<unsigned char> is_used(data.vertex_count, 0);
+  std::vector<unsigned char> is_used;
+  if (auto grown = grow(is_used, data.vertex_count, work); !grown) return grown.error();
   auto done = for_pieces(std::span<const Index>(data.corners), work, [&](std::span<const Index> piece) {
     for (const Index corner : piece) is_used[corner] = 1;
     return true;
@@ -180,7 +181,8 @@ Result<Index> leave_out_unused(PrimitiveData& data, Work& work) {
   const bool few = data.corners.size() < data.vertex_count / 4;
   const auto held = work.hold(few ? 0 : Count{data.vertex_count} * sizeof(Index) + kBlockBytes);
   if (!held) return held.error();
-  std::vector<Index> renumbered(few ? 0 : data.vertex_count);
+  std::vector<Index> renumbered;
+  if (auto grown = grow(renumbered, few ? 0 : data.vertex_count, work); !grown) return grown.error();
   if (!few) {
     for (Index i = 0; i < count; ++i) {
       if (auto stop = work.spend(1)) return *std::move(stop);

@@ -31,7 +31,7 @@ Result<Tuples> interleave(const Asset& asset, const PrimitiveData& data, const P
   tuples.memory = *std::move(memory);
   const auto held = asset.work.hold(Count{data.vertex_count} * widest * sizeof(double) + kBlockBytes);
   if (!held) return held.error();
-  tuples.values.resize(scalars);
+  if (auto grown = grow(tuples.values, scalars, asset.work); !grown) return grown.error();
   std::vector<double> values;
   values.reserve(Count{data.vertex_count} * widest);
   Index offset = 0;

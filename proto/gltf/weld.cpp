@@ -56,7 +56,7 @@ Result<Welded> room_for(Count count, Work& work) {
   if (!held) return held.error();
   Welded weld;
   weld.memory = *std::move(held);
-  weld.id.resize(count);
+  if (auto grown = grow(weld.id, count, work); !grown) return grown.error();
   return weld;
 }
 
@@ -73,8 +73,9 @@ Result<bool> weld_by_hashing(const R& rows, Count count, Welded& weld, Work& wor
   const auto held = work.hold((mask + 1) * sizeof(Index) + kHugePage);
   if (!held) return held.error();
   // Looked into everywhere at once: small pages would cost a walk for each look.
-  Buffer<Index> slots(mask + 1, 0);
-  weld.first.resize(count);
+  Buffer<Index> slots;
+  if (auto grown = grow(slots, mask + 1, work); !grown) return grown.error();
+  if (auto grown = grow(weld.first, count, work); !grown) return grown.error();
   Index ids = 0;
   Count steps_left = 8 * count + 1024;
   std::array<std::uint64_t, kBlock> hashes;

@@ -67,6 +67,18 @@ inline Result<Held> Work::hold(Count bytes) {
   return Held(*this, bytes);
 }
 
+// resize() that can be stopped: the first touch of a new page takes the kernel up to 2 us.
+template <class Vector>
+Result<void> grow(Vector& values, Count size, Work& work, typename Vector::value_type value = {}) {
+  constexpr Count kPiece = Count{1} << 16;
+  values.reserve(size);
+  while (values.size() < size) {
+    values.resize(std::min(size, values.size() + kPiece), value);
+    if (auto stop = work.spend_bytes(4 * kPiece * sizeof(value))) return *std::move(stop);
+  }
+  return {};
+}
+
 // What the allocator adds to a block, and to many small ones together.
 inline constexpr Count kBlockBytes = 16;
 

@@ -45,7 +45,8 @@ TEST_P(SmallBody, goes_through_the_whole_pipeline_when_it_is_smaller) {
   if (outcome) {
     EXPECT_GE(outcome->predicted, outcome->bytes.size());
   } else {
-    EXPECT_EQ(outcome.error().code, ErrorCode::too_large) << outcome.error().message;
+    const ErrorCode code = outcome.error().code;  // zeros alone make no triangle
+    EXPECT_TRUE(code == ErrorCode::too_large || code == ErrorCode::not_a_triangle) << outcome.error().message;
   }
 }
 

@@ -135,6 +135,7 @@ const Refusal kRefusals[] = {
      [](OrderedJson& d) {
        for (int i : {0, 1, 2})
          d["accessors"][i].erase("bufferView"), d["accessors"][i]["count"] = 2147483648u;
+       d["meshes"][0]["primitives"][0].erase("indices");
      },
      ErrorCode::too_large, "/meshes/0/primitives/0/attributes/POSITION"},
 
@@ -337,7 +338,7 @@ TEST(DataUri, may_be_written_in_any_case_and_with_parameters) {
 
 TEST(DataUri, that_is_no_base64_is_told_what_is_wrong) {
   EXPECT_THAT(refusal_of_uri("data:application/octet-stream,"),
-              testing::HasSubstr("unsupported: the data URI is not marked as Base64"));
+              testing::HasSubstr("malformed: the data URI is not marked as Base64"));
   EXPECT_THAT(refusal_of_uri("data:base64,"), testing::HasSubstr("percent-encoded"));
   EXPECT_THAT(refusal_of_uri("data:;base64"), testing::HasSubstr("no comma"));
   EXPECT_THAT(refusal_of_uri("data:;base64,="), testing::HasSubstr("no strict Base64"));
