@@ -70,7 +70,8 @@ Result<bool> weld_by_hashing(const R& rows, Count count, Welded& weld, Work& wor
   const int shift = 64 - slot_bits;
   const Count mask = (Count{1} << slot_bits) - 1;
   const Index tag_mask = ~((Index{1} << std::bit_width(count)) - 1);
-  const auto held = work.hold((mask + 1) * sizeof(Index) + kHugePage);
+  const Count bytes = (mask + 1) * sizeof(Index);
+  const auto held = work.hold(bytes + (bytes >= kHugePage ? kHugePage : kBlockBytes));
   if (!held) return held.error();
   // Looked into everywhere at once: small pages would cost a walk for each look.
   Buffer<Index> slots;
