@@ -134,8 +134,11 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
   if (!working) return working.error();
   Prediction prediction;
   prediction.working_bytes = *working;
-  prediction.answer_bytes = answer_format(request) == Format::json ? json::predicted_bytes(request, sizes)
-                                                                   : gltf::predicted_bytes(request, sizes);
+  const Result<Count> answer = answer_format(request) == Format::json
+                                   ? Result<Count>(json::predicted_bytes(request, sizes))
+                                   : gltf::predicted_bytes(request, sizes, budget);
+  if (!answer) return answer.error();
+  prediction.answer_bytes = *answer;
   if (prediction.answer_bytes > limits.max_output_bytes)
     return Error{ErrorCode::too_large,
                  std::string("the answer would take up to ") + std::to_string(prediction.answer_bytes) +

@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <type_traits>
 
-#include "proto/gltf/layout.h"
-
 namespace subdivd::proto::gltf {
 namespace {
-
-struct Source {
-  const std::byte* first = nullptr;
-  std::size_t stride = 0;
-};
 
 template <class T>
 T load(const std::byte* from) {
@@ -33,7 +25,7 @@ double normalize(T value) {
 
 // Calls use(T{}) with the C++ type of a component.
 template <class F>
-void with_component(int component, const F& use) {
+void with_component(Count component, const F& use) {
   switch (component) {
     case kByte:
       return use(std::int8_t{});
@@ -50,116 +42,147 @@ void with_component(int component, const F& use) {
   }
 }
 
-Source source_of(const tinygltf::Model& model, const Buffers& buffers, int view_index, std::size_t offset,
-                 std::size_t packed) {
-  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-  return {buffers.bytes[static_cast<std::size_t>(view.buffer)].data() + view.byteOffset + offset,
-          view.byteStride != 0 ? view.byteStride : packed};
-}
-
-// Walks over packed components and converts them: a vector made of it is written once, not zeroed first.
+// Reads one accessor, whose components are of type T.
 template <class T, class Out, class Convert>
-class Converting {
+class ElementReader {
  public:
-  using iterator_category = std::random_access_iterator_tag;  // a vector then knows its size at once
-  using value_type = Out;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const Out*;
-  using reference = Out;
+  ElementReader(const Elements& from, Index accessor, const Convert& convert, Work& work)
+      : layout_(from.layout),
+        buffers_(from.buffers),
+        info_(from.layout.accessors[accessor]),
+        width_(info_.components),
+        packed_(width_ * sizeof(T)),
+        convert_(convert),
+        work_(work) {}
 
-  Converting(const std::byte* at, const Convert& convert) : at_(at), convert_(&convert) {}
-  Out operator*() const { return (*convert_)(load<T>(at_)); }
-  Converting& operator++() {
-    at_ += sizeof(T);
-    return *this;
+  Result<void> append(std::span<const Index> chosen, std::vector<Out>& out) const {
+    const std::size_t begin = out.size(), count = chosen.empty() ? info_.count : chosen.size();
+    for (std::size_t first = 0; first < count; first += kPiece) {
+      append_dense(chosen, first, std::min(count - first, kPiece), out);
+      if (auto stop = work_.spend(kPiece * width_ / 4)) return *std::move(stop);
+    }
+    if (info_.sparse == kNoIndex) return {};
+    return lay_sparse(chosen, out.data() + begin);
   }
-  Converting operator++(int) {
-    Converting before = *this;
-    ++*this;
-    return before;
-  }
-  friend difference_type operator-(const Converting& a, const Converting& b) {
-    return (a.at_ - b.at_) / difference_type{sizeof(T)};
-  }
-  bool operator==(const Converting& other) const { return at_ == other.at_; }
 
  private:
-  const std::byte* at_;
-  const Convert* convert_;
-};
+  static constexpr std::size_t kPiece = 8192;  // elements
 
-// Writes over out[i * width ..] what the sparse part says of elements i.
-template <class T, class Out, class Convert>
-void read_sparse(const tinygltf::Model& model, const Buffers& buffers, const tinygltf::Accessor& accessor,
-                 std::size_t width, std::vector<Out>& out, const Convert& convert) {
-  const auto& sparse = accessor.sparse;
-  const std::size_t packed = width * sizeof(T);
-  with_component(sparse.indices.componentType, [&](auto component) {
-    using IndexType = decltype(component);
-    if constexpr (std::is_unsigned_v<IndexType>) {
-      const Source places = source_of(model, buffers, sparse.indices.bufferView,
-                                      static_cast<std::size_t>(sparse.indices.byteOffset), sizeof(IndexType));
-      const Source values = source_of(model, buffers, sparse.values.bufferView,
-                                      static_cast<std::size_t>(sparse.values.byteOffset), packed);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
-        const std::size_t element = load<IndexType>(places.first + i * sizeof(IndexType));
-        for (std::size_t k = 0; k < width; ++k)
-          out[element * width + k] = convert(load<T>(values.first + i * packed + k * sizeof(T)));
-      }
+  void append_dense(std::span<const Index> chosen, std::size_t first, std::size_t count,
+                    std::vector<Out>& out) const {
+    if (!info_.view) {
+      out.resize(out.size() + count * width_);
+      return;
     }
-  });
-}
-
-// Every element's `width` components, the sparse elements over the dense ones.
-template <class T, class Out, class Convert>
-std::vector<Out> read_elements(const tinygltf::Model& model, const Buffers& buffers,
-                               const tinygltf::Accessor& accessor, std::size_t width,
-                               const Convert& convert) {
-  const std::size_t packed = width * sizeof(T);
-  std::vector<Out> out;
-  if (accessor.bufferView >= 0) {
-    const Source dense = source_of(model, buffers, accessor.bufferView, accessor.byteOffset, packed);
-    if (dense.stride == packed) {
-      out = std::vector<Out>(Converting<T, Out, Convert>(dense.first, convert),
-                             Converting<T, Out, Convert>(dense.first + accessor.count * packed, convert));
-    } else {
-      out.resize(accessor.count * width);
-      for (std::size_t i = 0; i < accessor.count; ++i)
-        for (std::size_t k = 0; k < width; ++k)
-          out[i * width + k] = convert(load<T>(dense.first + i * dense.stride + k * sizeof(T)));
+    const ViewInfo& view = layout_.views[*info_.view];
+    const std::byte* const data = buffers_.bytes[view.buffer].data() + view.offset + info_.offset;
+    const std::size_t stride = view.stride != 0 ? view.stride : packed_;
+    std::size_t at = out.size();
+    out.resize(at + count * width_);
+    if (chosen.empty() && stride == packed_) {
+      const std::byte* scalar = data + first * packed_;
+      for (; at < out.size(); ++at, scalar += sizeof(T)) out[at] = convert_(load<T>(scalar));
+      return;
     }
-  } else {
-    out.resize(accessor.count * width);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const std::byte* const element = data + (chosen.empty() ? i : chosen[i]) * stride;
+      for (std::size_t k = 0; k < width_; ++k) out[at++] = convert_(load<T>(element + k * sizeof(T)));
+    }
   }
-  if (accessor.sparse.isSparse) read_sparse<T>(model, buffers, accessor, width, out, convert);
-  return out;
-}
+
+  // Lays what the sparse part says of the elements over them.
+  Result<void> lay_sparse(std::span<const Index> chosen, Out* out) const {
+    const SparseInfo& sparse = layout_.sparse[info_.sparse];
+    Result<void> done;
+    with_component(sparse.index_component, [&](auto component) {
+      if constexpr (std::is_unsigned_v<decltype(component)>)
+        done = chosen.empty() ? lay_all<decltype(component)>(sparse, out)
+                              : lay_chosen<decltype(component)>(sparse, chosen, out);
+    });
+    return done;
+  }
+
+  template <class Number>
+  std::size_t sparse_element(const SparseInfo& sparse, std::size_t i) const {
+    return load<Number>(buffers_.bytes[sparse.index_buffer].data() + sparse.index_offset +
+                        i * sizeof(Number));
+  }
+
+  void lay(const SparseInfo& sparse, std::size_t i, Out* to) const {
+    const std::byte* const from =
+        buffers_.bytes[sparse.value_buffer].data() + sparse.value_offset + i * packed_;
+    for (std::size_t k = 0; k < width_; ++k) to[k] = convert_(load<T>(from + k * sizeof(T)));
+  }
+
+  template <class Number>
+  Result<void> lay_all(const SparseInfo& sparse, Out* out) const {
+    for (std::size_t i = 0; i < sparse.count; ++i) {
+      if (auto stop = work_.spend(1)) return *std::move(stop);
+      lay(sparse, i, out + sparse_element<Number>(sparse, i) * width_);
+    }
+    return {};
+  }
+
+  // Few elements may be chosen of a long list that many primitives share: they look for themselves in it.
+  template <class Number>
+  Result<void> lay_chosen(const SparseInfo& sparse, std::span<const Index> chosen, Out* out) const {
+    std::size_t low = 0;
+    for (std::size_t c = 0; c < chosen.size() && low < sparse.count; ++c) {
+      if (auto stop = work_.spend(16)) return *std::move(stop);
+      std::size_t high = sparse.count;
+      while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (sparse_element<Number>(sparse, middle) < chosen[c])
+          low = middle + 1;
+        else
+          high = middle;
+      }
+      if (low < sparse.count && sparse_element<Number>(sparse, low) == chosen[c])
+        lay(sparse, low, out + c * width_);
+    }
+    return {};
+  }
+
+  const Layout& layout_;
+  const Buffers& buffers_;
+  const AccessorInfo& info_;
+  std::size_t width_, packed_;
+  Convert convert_;
+  Work& work_;
+};
 
 }  // namespace
 
-std::vector<double> read_reals(const tinygltf::Model& model, const Buffers& buffers, Index index) {
-  const tinygltf::Accessor& accessor = model.accessors[index];
-  const auto width =
-      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-  std::vector<double> out;
-  with_component(accessor.componentType, [&](auto component) {
+Result<void> append_reals(const Elements& from, Index accessor, std::span<const Index> chosen,
+                          std::vector<double>& out, Work& work) {
+  const AccessorInfo& info = from.layout.accessors[accessor];
+  Result<void> done;
+  with_component(info.component, [&](auto component) {
     using T = decltype(component);
-    out = accessor.normalized ? read_elements<T, double>(model, buffers, accessor, width,
-                                                         [](T value) { return normalize(value); })
-                              : read_elements<T, double>(model, buffers, accessor, width,
-                                                         [](T value) { return static_cast<double>(value); });
+    const auto append = [&](const auto& convert) {
+      done = ElementReader<T, double, std::decay_t<decltype(convert)>>(from, accessor, convert, work)
+                 .append(chosen, out);
+    };
+    if (info.normalized)
+      append([](T value) { return normalize(value); });
+    else
+      append([](T value) { return static_cast<double>(value); });
   });
-  return out;
+  return done;
 }
 
-std::vector<Index> read_indices(const tinygltf::Model& model, const Buffers& buffers, Index index) {
-  const tinygltf::Accessor& accessor = model.accessors[index];
+Result<std::vector<Index>> read_indices(const Elements& from, Index accessor, Work& work) {
   std::vector<Index> out;
-  with_component(accessor.componentType, [&](auto component) {
+  out.reserve(from.layout.accessors[accessor].count);
+  Result<void> done;
+  with_component(from.layout.accessors[accessor].component, [&](auto component) {
     using T = decltype(component);
+    const auto widen = [](T value) { return static_cast<Index>(value); };
     if constexpr (std::is_unsigned_v<T>)
-      out = read_elements<T, Index>(model, buffers, accessor, 1, [](T value) { return Index{value}; });
+      done =
+          ElementReader<T, Index, std::decay_t<decltype(widen)>>(from, accessor, widen, work).append({}, out);
   });
+  if (!done) return done.error();
   return out;
 }
 

@@ -2,18 +2,27 @@
 // Values of checked accessors: any component type, interleaved or packed, sparse, normalized; zeros where an
 // accessor has no data.
 
-#include <tiny_gltf.h>
-
+#include <span>
 #include <vector>
 
+#include "core/base/result.h"
 #include "proto/gltf/buffers.h"
+#include "proto/gltf/layout.h"
+#include "proto/gltf/work.h"
 
 namespace subdivd::proto::gltf {
 
-// All scalars, element after element. Normalized integers become numbers in [-1, 1] or [0, 1].
-std::vector<double> read_reals(const tinygltf::Model& model, const Buffers& buffers, Index accessor);
+struct Elements {
+  const Layout& layout;
+  const Buffers& buffers;
+};
 
-// Values of an accessor of unsigned integers.
-std::vector<Index> read_indices(const tinygltf::Model& model, const Buffers& buffers, Index accessor);
+// Appends all scalars, element after element, of the elements `chosen` (ascending), or of all when it is
+// empty. Normalized integers become numbers in [-1, 1] or [0, 1]. `out` should have room for them.
+Result<void> append_reals(const Elements& from, Index accessor, std::span<const Index> chosen,
+                          std::vector<double>& out, Work& work);
+
+// Values of an accessor of unsigned integers. Their memory is the caller's to ask for.
+Result<std::vector<Index>> read_indices(const Elements& from, Index accessor, Work& work);
 
 }  // namespace subdivd::proto::gltf

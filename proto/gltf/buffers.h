@@ -19,7 +19,9 @@ struct Buffers {
   std::vector<std::vector<std::byte>> decoded;  // what `bytes` of data URIs look at
 };
 
-// Needs the document's root to be an object.
-Result<Buffers> load_buffers(const Json& document, std::optional<Bytes> bin);
+// Needs the document's root to be an object. Text of a data URI that has become bytes is taken out of the
+// document, unless the answer will need it (`keep_text`: of all buffers but the first, which is written
+// anew).
+Result<Buffers> load_buffers(Json& document, std::optional<Bytes> bin, bool keep_text, Work& work);
 
 }  // namespace subdivd::proto::gltf

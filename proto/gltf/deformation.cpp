@@ -1,7 +1,6 @@
 #include "proto/gltf/deformation.h"
 
-#include <algorithm>
-#include <vector>
+#include <optional>
 
 #include "proto/gltf/fields.h"
 #include "proto/gltf/references.h"
@@ -10,24 +9,24 @@
 namespace subdivd::proto::gltf {
 namespace {
 
-struct Losses {
-  bool targets = false, skinning = false;
-};
-
-Losses drop_from_mesh(Json& mesh, const Place& place, Warnings& warnings) {
-  Losses losses;
+// Whether morph targets were lost.
+Result<bool> drop_from_mesh(Json& mesh, const Place& place, Warnings& warnings, Work& work) {
+  bool targets = false;
+  std::optional<Error> stop;
   references::each_element(mesh, "primitives", place, [&](Json& primitive, const Place& here) {
+    if (stop || (stop = work.spend(64))) return;
     if (primitive.find("targets") != nullptr) {
-      losses.targets = true;
+      targets = true;
       primitive.erase("targets");
-      warnings.add("Morph targets are not carried over", here.pointer());
+      warnings.add("Morph targets are not carried over", here);
     }
     // A point primitive beside refined ones: skinned without a skin it would be invalid.
     std::erase_if(*primitive.find("attributes")->object(),
                   [](const Json::Member& member) { return semantic_of(member.name) == Semantic::skinning; });
   });
+  if (stop) return *std::move(stop);
   mesh.erase("weights");
-  return losses;
+  return targets;
 }
 
 // Whether an animation channel moves weights of what was dropped.
@@ -64,51 +63,69 @@ void drop_idle_samplers(Json& animation, const std::vector<bool>& was_used) {
 }
 
 // False when nothing is left of the animation.
-bool drop_channels(Json& animation, const std::vector<bool>& nodes) {
+Result<bool> drop_channels(Json& animation, const std::vector<bool>& nodes, Work& work) {
   Json* found = animation.find("channels");
   Json* samplers = animation.find("samplers");
   if (found == nullptr || samplers == nullptr) return true;
   Json::Array& channels = *found->array();
   std::vector<bool> was_used(samplers->array()->size());
   for (const Json& channel : channels) was_used[*channel.find("sampler")->integer()] = true;
-  if (std::erase_if(channels, [&](const Json& channel) { return is_dead(channel, nodes); }) == 0) return true;
+  std::optional<Error> stop;
+  const auto dropped = std::erase_if(channels, [&](const Json& channel) {
+    if (stop || (stop = work.spend(32))) return false;
+    return is_dead(channel, nodes);
+  });
+  if (stop) return *std::move(stop);
+  if (dropped == 0) return true;
   if (channels.empty()) return false;
+  // Samplers that are kept go into a new array, which grows by doubling.
+  if (auto kept = work.keep(samplers->array()->size() * 4 * sizeof(Json)); !kept) return kept.error();
   drop_idle_samplers(animation, was_used);
   return true;
 }
 
 }  // namespace
 
-void drop_deformation(Json& document, const std::set<Index>& meshes, Warnings& warnings) {
+Result<void> drop_deformation(Json& document, const std::vector<bool>& meshes, Warnings& warnings,
+                              Work& work) {
   const Place root, all_meshes = root.at("meshes");
   bool targets_lost = false;
   Json::Array& mesh_array = *document.find("meshes")->array();
-  for (const Index mesh : meshes)
-    targets_lost |= drop_from_mesh(mesh_array[mesh], all_meshes.at(mesh), warnings).targets;
+  for (Count mesh = 0; mesh < meshes.size(); ++mesh) {
+    if (!meshes[mesh]) continue;
+    const auto lost = drop_from_mesh(mesh_array[mesh], all_meshes.at(mesh), warnings, work);
+    if (!lost) return lost.error();
+    targets_lost |= *lost;
+  }
 
   std::vector<bool> affected;
+  std::optional<Error> stop;
   references::each_element(document, "nodes", root, [&](Json& node, const Place& place) {
+    if (stop || (stop = work.spend(16))) return;
     const Json* mesh = node.find("mesh");
-    affected.push_back(mesh != nullptr && meshes.contains(static_cast<Index>(*mesh->integer())));
+    affected.push_back(mesh != nullptr && meshes[*mesh->integer()]);
     if (!affected.back()) return;
     if (node.find("skin") != nullptr) {
-      warnings.add("Skinning is not carried over: the node's mesh stands in its bind pose", place.pointer());
+      warnings.add("Skinning is not carried over: the node's mesh stands in its bind pose", place);
       node.erase("skin");
     }
     node.erase("weights");
   });
 
+  if (stop) return *std::move(stop);
   Json* animations = document.find("animations");
-  if (animations == nullptr || !targets_lost) return;
+  if (animations == nullptr || !targets_lost) return {};
   const Place all_animations = root.at("animations");
   Count i = 0;
   Json::Array kept;
   for (Json& animation : *animations->array()) {
     const Place place = all_animations.at(i++);
-    if (drop_channels(animation, affected)) {
+    const auto left = drop_channels(animation, affected, work);
+    if (!left) return left.error();
+    if (*left) {
       kept.push_back(std::move(animation));
     } else {
-      warnings.add("An animation of nothing but morph weights is dropped", place.pointer());
+      warnings.add("An animation of nothing but morph weights is dropped", place);
     }
   }
   if (kept.empty()) {
@@ -116,6 +133,7 @@ void drop_deformation(Json& document, const std::set<Index>& meshes, Warnings& w
   } else {
     *animations = Json(std::move(kept));
   }
+  return {};
 }
 
 }  // namespace subdivd::proto::gltf

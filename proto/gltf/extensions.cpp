@@ -24,9 +24,13 @@ bool is_known_extension(std::string_view name) {
   return name.starts_with("KHR_materials_") || std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end();
 }
 
-bool has_unknown_extension(const Json& document) {
-  if (const Json::Array* elements = document.array())
-    return std::any_of(elements->begin(), elements->end(), has_unknown_extension);
+Result<bool> has_unknown_extension(const Json& document, Work& work) {
+  if (auto stop = work.spend(4)) return *std::move(stop);
+  if (const Json::Array* elements = document.array()) {
+    for (const Json& element : *elements)
+      if (auto unknown = has_unknown_extension(element, work); !unknown || *unknown) return unknown;
+    return false;
+  }
   const Json::Object* members = document.object();
   if (members == nullptr) return false;
   for (const Json::Member& member : *members) {
@@ -36,10 +40,10 @@ bool has_unknown_extension(const Json& document) {
         // Compressed copies of geometry that refinement replaces: their primitive loses them.
         if (extension.name == "KHR_draco_mesh_compression") continue;
         if (!is_known_extension(extension.name) && !is_empty(extension.value)) return true;
-        if (has_unknown_extension(extension.value)) return true;
+        if (auto unknown = has_unknown_extension(extension.value, work); !unknown || *unknown) return unknown;
       }
-    } else if (has_unknown_extension(member.value)) {
-      return true;
+    } else if (auto unknown = has_unknown_extension(member.value, work); !unknown || *unknown) {
+      return unknown;
     }
   }
   return false;

@@ -14,6 +14,6 @@ bool is_known_extension(std::string_view name);
 
 // Whether any `extensions` object (outside of extras) has a member that is not known and not empty. It may
 // refer to anything, so nothing of such an asset may be removed or renumbered.
-bool has_unknown_extension(const Json& document);
+Result<bool> has_unknown_extension(const Json& document, Work& work);
 
 }  // namespace subdivd::proto::gltf

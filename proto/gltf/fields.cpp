@@ -2,10 +2,19 @@
 
 #include <algorithm>
 
+#include "proto/suggest.h"
+
 namespace subdivd::proto::gltf {
 namespace {
 
 std::string quoted(std::string_view name) { return "\"" + std::string(name) + "\""; }
+
+bool is_plain(std::string_view name) {
+  constexpr std::size_t kLongest = 64;
+  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+  });
+}
 
 Error missing(std::string_view name, const Place& place) {
   return error_at(place, ErrorCode::missing_field, quoted(name) + " is missing");
@@ -55,11 +64,16 @@ Path Place::path() const {
 
 std::string Place::pointer() const {
   if (parent_ == nullptr) return {};
-  return parent_->pointer() + "/" + (is_index_ ? std::to_string(index_) : std::string(name_));
+  if (is_index_) return parent_->pointer() + "/" + std::to_string(index_);
+  return parent_->pointer() + "/" + (is_plain(name_) ? std::string(name_) : in_quotes(name_));
 }
 
 Error error_at(const Place& place, ErrorCode code, std::string message) {
   return Error{code, std::move(message), place.path(), 0, 0};
+}
+
+Error over_limit(const Place& place, Count predicted, Count allowed, std::string message) {
+  return Error{ErrorCode::too_large, std::move(message), place.path(), predicted, allowed};
 }
 
 Result<std::optional<Count>> optional_integer(const Json& object, std::string_view name, const Place& place,

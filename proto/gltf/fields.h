@@ -18,7 +18,8 @@ class Place {
   Place at(std::string_view name) const { return {this, name, 0, false}; }
   Place at(Count index) const { return {this, {}, index, true}; }
   Path path() const;
-  std::string pointer() const;  // as people write it: /meshes/0/primitives/1
+  // As people write it: /meshes/0/primitives/1. Names that are not plain words stand in quotes and are cut.
+  std::string pointer() const;
 
  private:
   Place(const Place* parent, std::string_view name, Count index, bool is_index)
@@ -30,6 +31,8 @@ class Place {
 };
 
 Error error_at(const Place& place, ErrorCode code, std::string message);
+// too_large
+Error over_limit(const Place& place, Count predicted, Count allowed, std::string message);
 
 struct IntegerRange {
   Count min = 0, max = 0;

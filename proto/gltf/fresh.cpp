@@ -1,11 +1,13 @@
 #include "proto/gltf/fresh.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 
+#include "proto/gltf/caps.h"
 #include "proto/gltf/gltf.h"
 #include "proto/gltf/weld.h"
+#include "proto/suggest.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -29,11 +31,14 @@ std::string custom_name(const std::string& name) {
   return custom.size() > 1 ? custom : custom + "PRIMVAR";
 }
 
-// Names no attribute twice: a second "a-b" beside "a_b" becomes _A_B_2.
-std::string unique_name(std::string name, std::set<std::string>& taken) {
-  const std::string stem = name;
-  for (int number = 2; !taken.insert(name).second; ++number) name = stem + "_" + std::to_string(number);
-  return name;
+// Names no attribute twice: a second "a-b" beside "a_b" becomes _A_B_2. `taken`: names, and for those that
+// were asked for again the last number tried: or n equal names would be compared n * n times.
+std::string unique_name(std::string name, std::map<std::string, int>& taken) {
+  if (taken.emplace(name, 1).second) return name;
+  for (;;) {
+    std::string numbered = name + "_" + std::to_string(++taken[name]);
+    if (taken.emplace(numbered, 1).second) return numbered;
+  }
 }
 
 bool is_expressible(const Primvar& primvar) {
@@ -44,15 +49,15 @@ bool is_expressible(const Primvar& primvar) {
 
 std::vector<AttributeSlot> attributes_of(const ControlMesh& mesh, std::vector<std::string>* warnings) {
   std::vector<AttributeSlot> slots;
-  std::set<std::string> taken;
+  std::map<std::string, int> taken;
   Count texture_coordinates = 0;
   for (Index i = 0; i < mesh.primvars.size(); ++i) {
     const Primvar& primvar = mesh.primvars[i];
     if (!is_expressible(primvar)) {
       if (warnings != nullptr)
         warnings->push_back(
-            "primvar \"" + primvar.name + "\" of mesh \"" + mesh.name +
-            "\" is left out: glTF holds vertex, varying and faceVarying values of 1 to 4 numbers");
+            "primvar " + in_quotes(primvar.name) + " of mesh " + in_quotes(mesh.name) +
+            " is left out: glTF holds vertex, varying and faceVarying values of 1 to 4 numbers");
       continue;
     }
     std::string name;
@@ -91,8 +96,8 @@ Index add_mesh(Json& document, const std::string& name, Json::Array primitives) 
 void warn_of_width(const char* kind, const std::string& name, Index width,
                    std::vector<std::string>& warnings) {
   if (width > 3)
-    warnings.push_back(std::string(kind) + " \"" + name + "\": only the first 3 of " + std::to_string(width) +
-                       " numbers per point are written, as its position");
+    warnings.push_back(std::string(kind) + " " + in_quotes(name) + ": only the first 3 of " +
+                       std::to_string(width) + " numbers per point are written, as its position");
 }
 
 void add_curves(const RefineRequest& request, Index index, Source& source,
@@ -120,9 +125,40 @@ void add_surface(const RefineRequest& request, Index index, Source& source,
   warn_of_width("surface", surface.name, surface.width, warnings);
 }
 
+Count primitives_of(const RefineRequest& request) {
+  Count count = request.meshes.size() + request.surfaces.size();
+  for (const ControlCurves& curves : request.curves) count += std::max<Count>(1, curves.vertex_counts.size());
+  return count;
+}
+
+Result<void> check_primitives(const RefineRequest& request) {
+  const Count count = primitives_of(request);
+  if (request.source || count <= kMaxPrimitives) return {};
+  return Error{ErrorCode::too_large,
+               "the answer would have " + std::to_string(count) +
+                   " primitives, one for each mesh, curve and "
+                   "surface; a glTF answer may have " +
+                   std::to_string(kMaxPrimitives) + ": ask for JSON",
+               {},
+               count,
+               kMaxPrimitives};
+}
+
+// What the document and the slots take, for each primitive and for each attribute beside its name.
+constexpr Count kPrimitiveBytes = 2048, kAttributeBytes = 256;
+
 }  // namespace
 
-Source make_source(const RefineRequest& request, std::vector<std::string>& warnings) {
+Result<Source> make_source(const RefineRequest& request, std::vector<std::string>& warnings, Work& work) {
+  if (auto few = check_primitives(request); !few) return few.error();
+  Count bytes = primitives_of(request) * kPrimitiveBytes;
+  for (const ControlMesh& mesh : request.meshes) {
+    bytes += 4 * mesh.name.size();
+    for (const Primvar& primvar : mesh.primvars) bytes += kAttributeBytes + 4 * primvar.name.size();
+  }
+  for (const ControlCurves& curves : request.curves) bytes += 4 * curves.name.size();
+  for (const ControlPatch& surface : request.surfaces) bytes += 4 * surface.name.size();
+  if (auto kept = work.keep(bytes); !kept) return kept.error();
   Source source;
   Json& asset = source.document.set("asset", Json());
   asset.set("version", "2.0");
@@ -135,6 +171,7 @@ Source make_source(const RefineRequest& request, std::vector<std::string>& warni
   scene.set("nodes", std::move(nodes));
   source.document.array_member("scenes").push_back(std::move(scene));
   for (Index i = 0; i < request.meshes.size(); ++i) {
+    if (auto stop = work.spend(512)) return *std::move(stop);
     const ControlMesh& mesh = request.meshes[i];
     TrianglesSlot slot;
     slot.mesh = add_mesh(source.document, mesh.name, {make_primitive(kTriangles)});
@@ -144,27 +181,41 @@ Source make_source(const RefineRequest& request, std::vector<std::string>& warni
     slot.attributes = attributes_of(mesh, &warnings);
     source.triangles.push_back(std::move(slot));
   }
-  for (Index i = 0; i < request.curves.size(); ++i) add_curves(request, i, source, warnings);
-  for (Index i = 0; i < request.surfaces.size(); ++i) add_surface(request, i, source, warnings);
+  for (Index i = 0; i < request.curves.size(); ++i) {
+    if (auto stop = work.spend(512)) return *std::move(stop);
+    add_curves(request, i, source, warnings);
+  }
+  for (Index i = 0; i < request.surfaces.size(); ++i) {
+    if (auto stop = work.spend(512)) return *std::move(stop);
+    add_surface(request, i, source, warnings);
+  }
   return source;
 }
 
-SplitVertices split_vertices(const std::vector<Index>& corners,
-                             const std::vector<const std::vector<Index>*>& indices) {
+Result<SplitVertices> split_vertices(const std::vector<Index>& corners,
+                                     const std::vector<const std::vector<Index>*>& indices, Work& work) {
   const Count width = indices.size() + 1;
-  std::vector<double> keys(corners.size() * width);
+  const auto held = work.hold(corners.size() * width * sizeof(Index) + kBlockBytes);
+  if (!held) return held.error();
+  if (auto kept = work.keep(corners.size() * sizeof(Index) + kBlockBytes); !kept) return kept.error();
+  std::vector<Index> keys(corners.size() * width);
   for (Count corner = 0; corner < corners.size(); ++corner) {
+    if (auto stop = work.spend(width)) return *std::move(stop);
     keys[corner * width] = corners[corner];
     for (Count k = 1; k < width; ++k) {
       const std::vector<Index>& channel = *indices[k - 1];
-      keys[corner * width + k] = channel.empty() ? static_cast<double>(corner) : channel[corner];
+      keys[corner * width + k] = channel.empty() ? static_cast<Index>(corner) : channel[corner];
     }
   }
-  Welded weld = weld_tuples(keys, width);
-  return {static_cast<Index>(weld.first.size()), std::move(weld.id), std::move(weld.first)};
+  auto weld = weld_tuples(keys, width, work);
+  if (!weld) return weld.error();
+  return SplitVertices{static_cast<Index>(weld->first.size()), std::move(weld->id)};
 }
 
-Result<void> add_render_meshes(RefineRequest& request, [[maybe_unused]] const Budget& budget) {
+Result<void> add_render_meshes(RefineRequest& request, const Budget& budget) {
+  // Before anything is refined for an answer that cannot be written.
+  if (auto few = check_primitives(request); !few) return few;
+  Work work(budget);
   for (ControlMesh& mesh : request.meshes) {
     if (!mesh.render_meshes.empty()) continue;
     std::vector<const std::vector<Index>*> indices;
@@ -172,9 +223,10 @@ Result<void> add_render_meshes(RefineRequest& request, [[maybe_unused]] const Bu
       if (primvar.interpolation == Interpolation::face_varying && is_expressible(primvar))
         indices.push_back(&primvar.indices);
     if (indices.empty()) continue;
-    SplitVertices split = split_vertices(mesh.face_vertex_indices, indices);
+    auto split = split_vertices(mesh.face_vertex_indices, indices, work);
+    if (!split) return split.error();
     mesh.render_meshes.push_back(
-        {0, static_cast<Index>(mesh.face_count()), split.vertex_count, std::move(split.indices)});
+        {0, static_cast<Index>(mesh.face_count()), split->vertex_count, std::move(split->indices)});
   }
   return {};
 }

@@ -10,22 +10,24 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "proto/gltf/source.h"
+#include "proto/gltf/work.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto::gltf {
 
-// Adds one sentence for each thing that the document will not hold.
-Source make_source(const RefineRequest& request, std::vector<std::string>& warnings);
+// Adds one sentence for each thing that the document will not hold. Refuses more primitives than caps.h
+// allows.
+Result<Source> make_source(const RefineRequest& request, std::vector<std::string>& warnings, Work& work);
 
 // The mesh's vertices as glTF needs them: one for each combination of a point and indices of the face-varying
 // primvars that `slot` writes. `faces`: corners of triangles; `indices`: per primvar, one per corner.
 struct SplitVertices {
   Index vertex_count = 0;
-  std::vector<Index> indices;        // per corner
-  std::vector<Index> source_corner;  // per vertex
+  std::vector<Index> indices;  // per corner
 };
-SplitVertices split_vertices(const std::vector<Index>& corners,
-                             const std::vector<const std::vector<Index>*>& indices);
+Result<SplitVertices> split_vertices(const std::vector<Index>& corners,
+                                     const std::vector<const std::vector<Index>*>& indices, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -27,8 +27,9 @@ Result<RefineRequest> read(std::string_view body, Format format, const Options& 
 Result<void> add_render_meshes(RefineRequest& request, const Budget& budget = {});
 
 // Exact size of the BIN chunk (no holes, boundary not "none"; otherwise an upper bound) plus an upper bound
-// of all other bytes of the answer.
-Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes);
+// of all other bytes of the answer. Refuses an answer of more primitives than caps.h allows.
+Result<Count> predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes,
+                              const Budget& budget = {});
 
 // Format::glb or Format::gltf (embedded base64). `envelope` is a JSON object for asset.extras.subdivd.
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,

@@ -4,146 +4,61 @@
 #include <array>
 #include <cassert>
 #include <charconv>
-#include <nlohmann/json.hpp>
 
 namespace subdivd::proto::gltf {
 namespace {
 
 constexpr Count kMaxExactInteger = Count{1} << 53;
 
-// Builds the tree from nlohmann's events; its parser keeps no stack of calls, so depth is ours to cap.
-class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+// Where text goes: into a string, or only into its length.
+class Text {
  public:
-  explicit TreeBuilder(const JsonLimits& limits) : limits_(limits) {}
-
-  bool null() override { return put(Json()); }
-  bool boolean(bool value) override { return put(Json(value)); }
-  bool number_integer(number_integer_t value) override { return put(Json::raw(std::to_string(value))); }
-  bool number_unsigned(number_unsigned_t value) override { return put(Json::raw(std::to_string(value))); }
-  bool number_float(number_float_t, const string_t& text) override { return put(Json::raw(text)); }
-  bool string(string_t& value) override { return put(Json(std::move(value))); }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(Json(Json::Object())); }
-  bool start_array(std::size_t) override { return open(Json(Json::Array())); }
-  bool end_array() override { return open_.pop_back(), true; }
-  bool key(string_t& name) override {
-    open_.back()->object()->push_back({std::move(name), Json()});
-    return true;
-  }
-  bool end_object() override;
-  bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::json::exception& reason) override;
-
-  Json take() { return std::move(root_); }
-  const std::optional<Error>& error() const { return error_; }
+  explicit Text(std::string& out) : out_(out) {}
+  void put(char c) { out_ += c; }
+  void put(std::string_view text) { out_ += text; }
 
  private:
-  bool put(Json value) { return place(std::move(value)) != nullptr; }
-  bool open(Json container);
-  Json* place(Json value);
-  Path path() const;
-  bool fail(ErrorCode code, std::string message, Count predicted = 0, Count allowed = 0) {
-    error_ = Error{code, std::move(message), path(), predicted, allowed};
-    return false;
-  }
+  std::string& out_;
+};
+class Length {
+ public:
+  void put(char) { ++bytes_; }
+  void put(std::string_view text) { bytes_ += text.size(); }
+  Count bytes() const { return bytes_; }
 
-  JsonLimits limits_;
-  Json root_;
-  Count values_ = 0;
-  // Outermost first. A container's own vector does not move while one of its elements is open.
-  std::vector<Json*> open_;
-  std::optional<Error> error_;
+ private:
+  Count bytes_ = 0;
 };
 
-Json* TreeBuilder::place(Json value) {
-  if (++values_ > limits_.max_values) {
-    fail(ErrorCode::too_large,
-         "the glTF document has more than " + std::to_string(limits_.max_values) +
-             " JSON values; keep bulk data in buffers",
-         values_, limits_.max_values);
-    return nullptr;
-  }
-  if (open_.empty()) {
-    root_ = std::move(value);
-    return &root_;
-  }
-  if (Json::Array* array = open_.back()->array()) return &array->emplace_back(std::move(value));
-  Json& slot = open_.back()->object()->back().value;
-  slot = std::move(value);
-  return &slot;
-}
+bool is_plain(char c) { return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20; }
 
-bool TreeBuilder::open(Json container) {
-  // 20,000 levels of nested extras overflow the stack of whoever walks or destroys them recursively.
-  if (open_.size() >= limits_.max_depth)
-    return fail(ErrorCode::too_large,
-                "JSON is nested deeper than the " + std::to_string(limits_.max_depth) + " levels allowed",
-                open_.size() + 1, limits_.max_depth);
-  Json* slot = place(std::move(container));
-  if (slot == nullptr) return false;
-  open_.push_back(slot);
-  return true;
-}
-
-bool TreeBuilder::end_object() {
-  const Json::Object& members = *open_.back()->object();
-  std::vector<const std::string*> names;
-  names.reserve(members.size());
-  for (const Json::Member& member : members) names.push_back(&member.name);
-  const auto by_name = [](const std::string* a, const std::string* b) { return *a < *b; };
-  std::sort(names.begin(), names.end(), by_name);
-  // Readers disagree on which of two equal keys counts, so a file with both is two files.
-  const auto twice =
-      std::adjacent_find(names.begin(), names.end(), [](const auto* a, const auto* b) { return *a == *b; });
-  open_.pop_back();
-  if (twice == names.end()) return true;
-  fail(ErrorCode::duplicate_field, "the member \"" + **twice + "\" appears twice; write it once");
-  error_->where.emplace_back(**twice);
-  return false;
-}
-
-bool TreeBuilder::parse_error(std::size_t position, const std::string&,
-                              const nlohmann::json::exception& reason) {
-  std::string what = reason.what();  // "[json.exception.parse_error.101] parse error at line …: …"
-  if (const std::size_t end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
-  what.resize(std::min<std::size_t>(what.size(), 200));
-  for (char& c : what)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '?';
-  error_ = Error{ErrorCode::malformed,
-                 "the glTF JSON is broken at byte " + std::to_string(position) + ": " + what,
-                 {},
-                 0,
-                 0};
-  return false;
-}
-
-Path TreeBuilder::path() const {
-  Path path;
-  for (const Json* container : open_) {
-    if (const Json::Array* array = container->array()) {
-      path.emplace_back(std::uint64_t{array->empty() ? 0 : array->size() - 1});
-    } else if (const Json::Object* object = container->object(); !object->empty()) {
-      path.emplace_back(object->back().name);
-    }
-  }
-  return path;
-}
-
-void print_string(const std::string& value, std::string& out) {
+template <class Sink>
+std::optional<Error> print_string(std::string_view value, Sink& sink, Work& work) {
   static constexpr char kHex[] = "0123456789abcdef";
-  out += '"';
-  for (const char c : value) {
-    const auto byte = static_cast<unsigned char>(c);
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  sink.put('"');
+  for (std::size_t at = 0; at < value.size();) {
+    const std::string_view piece = value.substr(at, kPiece);
+    const auto plain =
+        static_cast<std::size_t>(std::find_if_not(piece.begin(), piece.end(), is_plain) - piece.begin());
+    sink.put(piece.substr(0, plain));
+    if (auto stop = work.spend_bytes(4 * plain)) return stop;
+    at += plain;
+    if (plain == piece.size()) continue;
+    const char c = value[at++];
     if (c == '"' || c == '\\') {
-      out += '\\', out += c;
-    } else if (byte < 0x20) {
-      out += "\\u00", out += kHex[byte >> 4], out += kHex[byte & 15];
+      sink.put('\\'), sink.put(c);
     } else {
-      out += c;
+      const auto byte = static_cast<unsigned char>(c);
+      sink.put("\\u00"), sink.put(kHex[byte >> 4]), sink.put(kHex[byte & 15]);
     }
   }
-  out += '"';
+  sink.put('"');
+  return std::nullopt;
 }
+
+// Of the block that a string has beside itself.
+Count string_block(const std::string& text) { return text.size() > 15 ? text.size() + 1 + kBlockBytes : 0; }
 
 }  // namespace
 
@@ -209,52 +124,112 @@ Json::Array& Json::array_member(std::string_view name) {
   return *found->array();
 }
 
-void Json::print(std::string& out) const {
+template <class Sink>
+std::optional<Error> Json::print_to(Sink& sink, Work& work) const {
+  if (auto stop = work.spend(4)) return stop;
   if (is_null()) {
-    out += "null";
+    sink.put("null");
   } else if (const bool* flag = boolean()) {
-    out += *flag ? "true" : "false";
+    sink.put(*flag ? std::string_view("true") : std::string_view("false"));
   } else if (const Number* number = std::get_if<Number>(&value_)) {
-    out += number->text;
+    sink.put(number->text);
+    return work.spend_bytes(number->text.size());
   } else if (const std::string* value = string()) {
-    print_string(*value, out);
+    return print_string(*value, sink, work);
   } else if (const Array* elements = array()) {
-    out += '[';
+    sink.put('[');
     for (const Json& element : *elements) {
-      if (&element != elements->data()) out += ',';
-      element.print(out);
+      if (&element != elements->data()) sink.put(',');
+      if (auto stop = element.print_to(sink, work)) return stop;
     }
-    out += ']';
+    sink.put(']');
   } else {
-    out += '{';
+    sink.put('{');
     for (const Member& member : *object()) {
-      if (&member != object()->data()) out += ',';
-      print_string(member.name, out);
-      out += ':';
-      member.value.print(out);
+      if (&member != object()->data()) sink.put(',');
+      if (auto stop = print_string(member.name, sink, work)) return stop;
+      sink.put(':');
+      if (auto stop = member.value.print_to(sink, work)) return stop;
     }
-    out += '}';
+    sink.put('}');
   }
+  return std::nullopt;
+}
+
+Result<Count> Json::text_size(Work& work) const {
+  Length length;
+  if (auto stop = print_to(length, work)) return *std::move(stop);
+  return length.bytes();
+}
+
+Result<void> Json::print(std::string& out, Work& work) const {
+  const auto size = text_size(work);
+  if (!size) return size.error();
+  out.reserve(out.size() + *size);
+  Text text(out);
+  if (auto stop = print_to(text, work)) return *std::move(stop);
+  return {};
 }
 
 std::string Json::text() const {
+  const Budget unlimited;
+  Work work(unlimited);
   std::string out;
-  print(out);
+  (void)print(out, work);
   return out;
 }
 
-Result<Json> parse_json(std::string_view text, const JsonLimits& limits) {
-  // The parser takes NUL for the end: what hides behind one would be read by others and not by us.
-  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
-    if (text.find_first_not_of('\0', nul) != std::string_view::npos)
-      return Error{ErrorCode::malformed, "the glTF JSON has a NUL at byte " + std::to_string(nul), {}, 0, 0};
-    text = text.substr(0, nul);
+std::optional<Error> Json::add_heap_bytes(Count& bytes, Work& work) const {
+  if (auto stop = work.spend(4)) return stop;
+  if (const Number* number = std::get_if<Number>(&value_)) {
+    bytes += string_block(number->text);
+  } else if (const std::string* value = string()) {
+    bytes += string_block(*value);
+  } else if (const Array* elements = array()) {
+    bytes += elements->size() * sizeof(Json) + kBlockBytes;
+    for (const Json& element : *elements)
+      if (auto stop = element.add_heap_bytes(bytes, work)) return stop;
+  } else if (const Object* members = object()) {
+    bytes += members->size() * sizeof(Member) + kBlockBytes;
+    for (const Member& member : *members) {
+      bytes += string_block(member.name);
+      if (auto stop = member.value.add_heap_bytes(bytes, work)) return stop;
+    }
   }
-  TreeBuilder builder(limits);
-  const bool complete = nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
-  if (builder.error()) return *builder.error();
-  if (!complete) return Error{ErrorCode::malformed, "the glTF JSON is broken", {}, 0, 0};
-  return builder.take();
+  return std::nullopt;
+}
+
+Result<Count> Json::heap_bytes(Work& work) const {
+  Count bytes = 0;
+  if (auto stop = add_heap_bytes(bytes, work)) return *std::move(stop);
+  return bytes;
+}
+
+std::optional<Error> Json::copy_to(Json& copy, Work& work) const {
+  if (auto stop = work.spend(8)) return stop;
+  if (const Array* elements = array()) {
+    copy.value_ = Array(elements->size());
+    for (std::size_t i = 0; i < elements->size(); ++i)
+      if (auto stop = (*elements)[i].copy_to((*copy.array())[i], work)) return stop;
+  } else if (const Object* members = object()) {
+    copy.value_ = Object(members->size());
+    for (std::size_t i = 0; i < members->size(); ++i) {
+      Member& member = (*copy.object())[i];
+      member.name = (*members)[i].name;
+      if (auto stop = (*members)[i].value.copy_to(member.value, work)) return stop;
+    }
+  } else {
+    if (const std::string* value = string())
+      if (auto stop = work.spend_bytes(value->size())) return stop;
+    copy = *this;
+  }
+  return std::nullopt;
+}
+
+Result<Json> Json::copy(Work& work) const {
+  Json copy;
+  if (auto stop = copy_to(copy, work)) return *std::move(stop);
+  return copy;
 }
 
 }  // namespace subdivd::proto::gltf

@@ -1,9 +1,10 @@
 #pragma once
 // A JSON document as it was written: order of members kept, numbers kept as text.
 //
-// nlohmann's parser reads it, but into this tree instead of ordered_json: that one prints numbers anew (an
-// integer of 20 digits becomes a double), compares keys one by one (an object of 10^6 keys takes hours) and
-// copies whole subtrees when an object grows.
+// nlohmann's ordered_json prints numbers anew (an integer of 20 digits becomes a double), compares keys one
+// by one (an object of 10^6 keys takes hours) and copies whole subtrees when an object grows. Its parser
+// holds a long string several times over, cannot be stopped within one, and nobody knows beforehand what the
+// tree will take.
 
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "proto/gltf/work.h"
 
 namespace subdivd::proto::gltf {
 
@@ -60,13 +62,22 @@ class Json {
   // The array member `name`, made when absent.
   Array& array_member(std::string_view name);
 
-  void print(std::string& out) const;
   std::string text() const;
+  // The same, stopped when the budget says so. `out` is appended to; it grows once, to its final size.
+  Result<void> print(std::string& out, Work& work) const;
+  Result<Count> text_size(Work& work) const;
+  // What a copy takes beyond its own sizeof.
+  Result<Count> heap_bytes(Work& work) const;
+  Result<Json> copy(Work& work) const;
 
  private:
   struct Number {
     std::string text;
   };
+  template <class Sink>
+  std::optional<Error> print_to(Sink& sink, Work& work) const;
+  std::optional<Error> add_heap_bytes(Count& bytes, Work& work) const;
+  std::optional<Error> copy_to(Json& copy, Work& work) const;
   std::variant<std::monostate, bool, Number, std::string, Array, Object> value_;
 };
 
@@ -94,7 +105,8 @@ struct JsonLimits {
   Count max_values = Count{1} << 21;
 };
 
-// Refuses malformed text, bad UTF-8, duplicate members, and what exceeds the limits (too_large).
-Result<Json> parse_json(std::string_view text, const JsonLimits& limits);
+// Refuses malformed text, bad UTF-8, duplicate members, and what exceeds the limits (too_large). The memory
+// of the tree is kept with `work`.
+Result<Json> parse_json(std::string_view text, const JsonLimits& limits, Work& work);
 
 }  // namespace subdivd::proto::gltf

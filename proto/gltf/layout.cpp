@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <tuple>
 
 #include "proto/gltf/fields.h"
+#include "proto/gltf/polled_sort.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -72,26 +73,76 @@ Result<ViewInfo> check_view(const Json& json, const Place& place, const Buffers&
   return ViewInfo{*buffer, offset->value_or(0), *length, stride->value_or(0)};
 }
 
-// Sparse indices must ascend strictly and stay below the accessor's count.
-Result<void> check_sparse_indices(const Run& run, const ViewInfo& view, const Buffers& buffers, Count limit,
-                                  const Place& place) {
-  const Bytes bytes = buffers.bytes[view.buffer].subspan(view.offset + run.offset);
-  std::optional<Count> last;
-  for (Count i = 0; i < run.count; ++i) {
-    Count index = 0;
-    for (Count byte = 0; byte < run.element; ++byte)
-      index |= std::to_integer<Count>(bytes[i * run.element + byte]) << (8 * byte);
-    if (index >= limit || (last && index <= *last))
-      return error_at(place, ErrorCode::out_of_range,
-                      "sparse index number " + std::to_string(i) + " is " + std::to_string(index) +
-                          "; indices must ascend and be less than " + std::to_string(limit));
-    last = index;
+// The elements of a list of sparse indices, counted in its buffer from the first on: lists are aligned.
+struct SparseList {
+  Index buffer = 0;
+  Count size = 0;            // of an element: 1, 2 or 4
+  Count begin = 0, end = 0;  // first and last but one element
+  Count limit = 0;           // the accessor's count
+  Index accessor = 0;        // whose list it is
+};
+
+Count sparse_index(const Buffers& buffers, const SparseList& list, Count i) {
+  const std::byte* from = buffers.bytes[list.buffer].data() + i * list.size;
+  Count index = 0;
+  for (Count byte = 0; byte < list.size; ++byte) index |= std::to_integer<Count>(from[byte]) << (8 * byte);
+  return index;
+}
+
+Error bad_sparse_index(const Buffers& buffers, const SparseList& list, Count i) {
+  const Place root, all = root.at("accessors"), accessor = all.at(list.accessor),
+                    sparse = accessor.at("sparse");
+  return error_at(sparse.at("indices"), ErrorCode::out_of_range,
+                  "sparse index number " + std::to_string(i - list.begin) + " is " +
+                      std::to_string(sparse_index(buffers, list, i)) +
+                      "; indices must ascend and be less than " + std::to_string(list.limit));
+}
+
+// Sparse indices must ascend strictly and stay below the accessor's count. Thousands of accessors may share a
+// list, or have lists that overlap: in the order of their beginnings no element is looked at twice.
+Result<void> check_sparse_lists(std::vector<SparseList> lists, const Buffers& buffers, Work& work) {
+  const auto by_place = [](const SparseList& a, const SparseList& b) {
+    return std::tie(a.buffer, a.size, a.begin, a.accessor) < std::tie(b.buffer, b.size, b.begin, b.accessor);
+  };
+  if (auto sorted = polled_sort(lists, by_place, work); !sorted) return sorted;
+  const SparseList* last = nullptr;
+  Count ascends_to = 0;  // from the last list's begin on
+  for (const SparseList& list : lists) {
+    if (last == nullptr || last->buffer != list.buffer || last->size != list.size) ascends_to = 0;
+    ascends_to = std::max(ascends_to, list.begin + 1);
+    while (ascends_to < list.end) {
+      if (auto stop = work.spend(1)) return *std::move(stop);
+      if (sparse_index(buffers, list, ascends_to) <= sparse_index(buffers, list, ascends_to - 1))
+        return bad_sparse_index(buffers, list, ascends_to);
+      ++ascends_to;
+    }
+    if (sparse_index(buffers, list, list.end - 1) >= list.limit) {
+      // The first of those that are too large: they ascend.
+      Count low = list.begin, high = list.end - 1;
+      while (low < high) {
+        const Count middle = (low + high) / 2;
+        sparse_index(buffers, list, middle) >= list.limit ? high = middle : low = middle + 1;
+      }
+      return bad_sparse_index(buffers, list, low);
+    }
+    last = &list;
   }
   return {};
 }
 
-Result<void> check_sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
-                          Count element_bytes, const Layout& layout, const Buffers& buffers) {
+// What is known of the layout while it is checked.
+struct Checker {
+  const Buffers& buffers;
+  Layout& layout;
+  std::vector<SparseList> lists;
+
+  Result<SparseInfo> sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
+                            Count element_bytes);
+  Result<AccessorInfo> accessor(const Json& json, const Place& place);
+};
+
+Result<SparseInfo> Checker::sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
+                                   Count element_bytes) {
   const auto count = required_integer(json, "count", place, {1, accessor.count});
   if (!count) return count.error();
   const auto indices = required_object(json, "indices", place);
@@ -115,17 +166,28 @@ Result<void> check_sparse(const Json& json, const Place& place, const AccessorIn
   const Run run{offset->value_or(0), size, size, *count, size};
   const ViewInfo& index_view = layout.views[*part_view];
   if (auto fits = check_run(run, index_view, at_indices); !fits) return fits.error();
-  if (auto good = check_sparse_indices(run, index_view, buffers, accessor.count, at_indices); !good)
-    return good.error();
 
   const auto value_view =
       required_reference(**values, "bufferView", at_values, "bufferViews", layout.views.size());
   if (!value_view) return value_view.error();
   const auto value_offset = optional_integer(**values, "byteOffset", at_values, {0, kMaxOffset});
   if (!value_offset) return value_offset.error();
-  return check_run(
-      {value_offset->value_or(0), element_bytes, element_bytes, *count, component_size(accessor.component)},
-      layout.views[*value_view], at_values);
+  const ViewInfo& values_in = layout.views[*value_view];
+  if (auto fits = check_run({value_offset->value_or(0), element_bytes, element_bytes, *count,
+                             component_size(accessor.component)},
+                            values_in, at_values);
+      !fits)
+    return fits.error();
+  SparseInfo info{*count,
+                  index_view.buffer,
+                  values_in.buffer,
+                  index_view.offset + run.offset,
+                  values_in.offset + value_offset->value_or(0),
+                  *component};
+  const Count begin = info.index_offset / size;
+  lists.push_back({info.index_buffer, size, begin, begin + *count, accessor.count,
+                   static_cast<Index>(layout.accessors.size())});
+  return info;
 }
 
 // Bytes from one element's first to its last: columns of matrices begin at multiples of 4.
@@ -135,8 +197,7 @@ Count element_size(const ElementType& type, Count component) {
   return (type.columns - 1) * aligned + column;
 }
 
-Result<AccessorInfo> check_accessor(const Json& json, const Place& place, const Layout& layout,
-                                    const Buffers& buffers) {
+Result<AccessorInfo> Checker::accessor(const Json& json, const Place& place) {
   if (auto is = expect_object(json, place); !is) return is.error();
   AccessorInfo info;
   const auto view = optional_reference(json, "bufferView", place, "bufferViews", layout.views.size());
@@ -173,6 +234,7 @@ Result<AccessorInfo> check_accessor(const Json& json, const Place& place, const 
   info.matrix = type->columns > 1;
 
   const Count bytes = element_size(*type, size);
+  info.offset = offset->value_or(0);
   if (info.view) {
     const ViewInfo& data = layout.views[*info.view];
     const Count packed = info.matrix ? (bytes + 3) / 4 * 4 : bytes;
@@ -185,8 +247,10 @@ Result<AccessorInfo> check_accessor(const Json& json, const Place& place, const 
   const auto sparse = optional_object(json, "sparse", place);
   if (!sparse) return sparse.error();
   if (*sparse != nullptr) {
-    if (auto good = check_sparse(**sparse, place.at("sparse"), info, bytes, layout, buffers); !good)
-      return good.error();
+    const auto laid_over = this->sparse(**sparse, place.at("sparse"), info, bytes);
+    if (!laid_over) return laid_over.error();
+    info.sparse = static_cast<Index>(layout.sparse.size());
+    layout.sparse.push_back(*laid_over);
   }
   return info;
 }
@@ -209,29 +273,47 @@ Count component_size(Count component) {
   }
 }
 
-Result<Layout> check_layout(const Json& document, const Buffers& buffers) {
+Result<Layout> check_layout(const Json& document, const Buffers& buffers, Work& work) {
   Layout layout;
   const Place root;
   const auto views = optional_array(document, "bufferViews", root);
   if (!views) return views.error();
   const auto accessors = optional_array(document, "accessors", root);
   if (!accessors) return accessors.error();
+  Checker checker{buffers, layout, {}};
   if (*views != nullptr) {
     const Place place = root.at("bufferViews");
-    for (const Json& json : *(*views)->array()) {
+    const Json::Array& list = *(*views)->array();
+    if (auto kept = work.keep(list.size() * sizeof(ViewInfo) + kBlockBytes); !kept) return kept.error();
+    layout.views.reserve(list.size());
+    for (const Json& json : list) {
+      if (auto stop = work.spend(16)) return *std::move(stop);
       const auto info = check_view(json, place.at(layout.views.size()), buffers);
       if (!info) return info.error();
       layout.views.push_back(*info);
     }
   }
-  if (*accessors != nullptr) {
-    const Place place = root.at("accessors");
-    for (const Json& json : *(*accessors)->array()) {
-      auto info = check_accessor(json, place.at(layout.accessors.size()), layout, buffers);
-      if (!info) return info.error();
-      layout.accessors.push_back(*std::move(info));
-    }
+  if (*accessors == nullptr) return layout;
+  const Place place = root.at("accessors");
+  const Json::Array& list = *(*accessors)->array();
+  const auto sparse = static_cast<Count>(std::count_if(
+      list.begin(), list.end(), [](const Json& json) { return json.find("sparse") != nullptr; }));
+  if (auto kept =
+          work.keep(list.size() * sizeof(AccessorInfo) + sparse * sizeof(SparseInfo) + 2 * kBlockBytes);
+      !kept)
+    return kept.error();
+  const auto held = work.hold(sparse * sizeof(SparseList) + kBlockBytes);
+  if (!held) return held.error();
+  layout.accessors.reserve(list.size());
+  layout.sparse.reserve(sparse);
+  checker.lists.reserve(sparse);
+  for (const Json& json : list) {
+    if (auto stop = work.spend(32)) return *std::move(stop);
+    auto info = checker.accessor(json, place.at(layout.accessors.size()));
+    if (!info) return info.error();
+    layout.accessors.push_back(*info);
   }
+  if (auto good = check_sparse_lists(std::move(checker.lists), buffers, work); !good) return good.error();
   return layout;
 }
 

@@ -2,7 +2,7 @@
 // bufferViews and accessors, proved to lie within their buffers.
 
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "proto/gltf/buffers.h"
@@ -22,18 +22,29 @@ struct ViewInfo {
 
 struct AccessorInfo {
   std::optional<Index> view;  // none: zeros
-  std::string type;           // SCALAR, VEC2, …
+  Count offset = 0;           // within the view
+  std::string_view type;      // SCALAR, VEC2, …
   Count component = 0, count = 0;
   Count components = 0;  // scalars per element
   bool normalized = false, matrix = false;
+  Index sparse = kNoIndex;  // of Layout::sparse
+};
+
+// Elements that are laid over the others: their numbers, ascending, and their values, both packed.
+struct SparseInfo {
+  Count count = 0;
+  Index index_buffer = 0, value_buffer = 0;
+  Count index_offset = 0, value_offset = 0;  // in the buffers
+  Count index_component = 0;
 };
 
 struct Layout {
   std::vector<ViewInfo> views;
   std::vector<AccessorInfo> accessors;
+  std::vector<SparseInfo> sparse;
 };
 
 // Every element of every accessor, dense and sparse, can be read from `buffers` afterwards.
-Result<Layout> check_layout(const Json& document, const Buffers& buffers);
+Result<Layout> check_layout(const Json& document, const Buffers& buffers, Work& work);
 
 }  // namespace subdivd::proto::gltf

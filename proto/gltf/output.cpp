@@ -16,13 +16,19 @@ constexpr Index kMaxShortVertices = 65535;
 // Printed raw where the text of the buffer goes; escaped everywhere else, so it is found without fail.
 constexpr char kUriMark = '\x01';
 
-Json bounds_of(std::span<const float> values, Index components) {
+constexpr Count kPiece = 16384;  // scalars between two looks at the clock
+
+Result<Json> bounds_of(std::span<const float> values, Index components, Work& work) {
   std::vector<float> low(values.begin(), values.begin() + components), high = low;
-  for (std::size_t i = 0; i < values.size(); i += components)
-    for (Index k = 0; k < components; ++k) {
-      low[k] = std::min(low[k], values[i + k]);
-      high[k] = std::max(high[k], values[i + k]);
-    }
+  for (Count first = 0; first < values.size(); first += kPiece * components) {
+    const auto piece = values.subspan(first, std::min(values.size() - first, kPiece * components));
+    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
+    for (Count i = 0; i < piece.size(); i += components)
+      for (Index k = 0; k < components; ++k) {
+        low[k] = std::min(low[k], piece[i + k]);
+        high[k] = std::max(high[k], piece[i + k]);
+      }
+  }
   const auto print = [](const std::vector<float>& bound) {
     Json::Array numbers;
     // As doubles: the shortest text of a float is another number to readers that compare in double.
@@ -41,14 +47,28 @@ void append_word(std::string& out, Count word) {
 
 std::string padding(Count size) { return std::string((4 - size % 4) % 4, '\0'); }
 
+// Out of the document and back, so that nothing is looked up for each of a hundred thousand accessors.
+Json::Array taken_out(Json& document, std::string_view name) {
+  Json* found = document.find(name);
+  return found == nullptr ? Json::Array() : std::move(*found->array());
+}
+
+void put_back(Json& document, std::string_view name, Json::Array elements) {
+  if (!elements.empty()) document.set(name, Json(std::move(elements)));
+}
+
 }  // namespace
 
-Output::Output(Json document, Chunk data) : document_(std::move(document)), size_(data.bytes.size()) {
+Output::Output(Json document, Chunk data, Work& work)
+    : document_(std::move(document)), work_(work), size_(data.bytes.size()) {
   if (!data.bytes.empty()) chunks_.push_back(std::move(data));
+  views_ = taken_out(document_, "bufferViews");
+  accessors_ = taken_out(document_, "accessors");
+  if (Json* meshes = document_.find("meshes")) meshes_ = meshes->array();
 }
 
 Json& Output::primitive(Index mesh, Index primitive) {
-  return (*(*document_.find("meshes")->array())[mesh].find("primitives")->array())[primitive];
+  return (*(*meshes_)[mesh].find("primitives")->array())[primitive];
 }
 
 Index Output::add_accessor(Chunk data, Count count, Count component, std::string_view type, Target target,
@@ -58,18 +78,16 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
   view.set("byteOffset", Json::number(size_));
   view.set("byteLength", Json::number(Count{data.bytes.size()}));
   view.set("target", Json::number(static_cast<Count>(target)));
-  Json::Array& views = document_.array_member("bufferViews");
-  views.push_back(std::move(view));
+  views_.push_back(std::move(view));
 
   Json accessor;
-  accessor.set("bufferView", Json::number(Count{views.size() - 1}));
+  accessor.set("bufferView", Json::number(Count{views_.size() - 1}));
   accessor.set("componentType", Json::number(component));
   accessor.set("count", Json::number(count));
   accessor.set("type", std::string(type));
   for (const char* bound : {"min", "max"})
     if (Json* found = bounds.find(bound)) accessor.set(bound, std::move(*found));
-  Json::Array& accessors = document_.array_member("accessors");
-  accessors.push_back(std::move(accessor));
+  accessors_.push_back(std::move(accessor));
 
   size_ += data.bytes.size();
   chunks_.push_back(std::move(data));
@@ -77,28 +95,35 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
     size_ += pad.size();
     chunks_.push_back(Chunk::own(std::move(pad)));
   }
-  return static_cast<Index>(accessors.size() - 1);
+  return static_cast<Index>(accessors_.size() - 1);
 }
 
-Index Output::add_floats(Buffer<float> values, Index components, bool with_bounds) {
+Result<Index> Output::add_floats(Buffer<float> values, Index components, bool with_bounds) {
   static constexpr std::array<std::string_view, 5> kTypes{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-  Json bounds = with_bounds ? bounds_of(values, components) : Json();
+  auto bounds = with_bounds ? bounds_of(values, components, work_) : Result<Json>(Json());
+  if (!bounds) return bounds.error();
   const Count count = values.size() / components;
   return add_accessor(Chunk::own(std::move(values)), count, kFloat, kTypes[components], Target::vertices,
-                      std::move(bounds));
+                      *std::move(bounds));
 }
 
-Index Output::add_indices(Buffer<Index> values, Index vertex_count) {
+Result<Index> Output::add_indices(Buffer<Index> values, Index vertex_count) {
   const Count count = values.size();
   if (vertex_count > kMaxShortVertices)
     return add_accessor(Chunk::own(std::move(values)), count, kUnsignedInt, "SCALAR", Target::indices, {});
   Buffer<std::uint16_t> narrow(values.size());
-  std::transform(values.begin(), values.end(), narrow.begin(),
-                 [](Index index) { return static_cast<std::uint16_t>(index); });
+  for (Count i = 0; i < count; ++i) {
+    if (i % kPiece == 0)
+      if (auto stop = work_.spend(kPiece / 4)) return *std::move(stop);
+    narrow[i] = static_cast<std::uint16_t>(values[i]);
+  }
   return add_accessor(Chunk::own(std::move(narrow)), count, kUnsignedShort, "SCALAR", Target::indices, {});
 }
 
-Result<Payload> Output::finish(Format format, const std::vector<Source::Foreign>& foreign) && {
+Result<Payload> Output::finish(Format format, const std::shared_ptr<const void>& source,
+                               const std::vector<Source::Foreign>& foreign) && {
+  put_back(document_, "bufferViews", std::move(views_));
+  put_back(document_, "accessors", std::move(accessors_));
   if (size_ > 0) {
     Json::Array& buffers = document_.array_member("buffers");
     if (buffers.empty()) buffers.emplace_back();
@@ -110,13 +135,15 @@ Result<Payload> Output::finish(Format format, const std::vector<Source::Foreign>
     }
   }
   if (format == Format::gltf) return finish_gltf();
-  return finish_glb(foreign);
+  return finish_glb(source, foreign);
 }
 
-Result<Payload> Output::finish_glb(const std::vector<Source::Foreign>& foreign) {
-  std::string json = document_.text();
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  Count total = kGlbHeaderSize + kChunkHeaderSize + json.size() + (size_ > 0 ? kChunkHeaderSize + size_ : 0);
+Result<Payload> Output::finish_glb(const std::shared_ptr<const void>& source,
+                                   const std::vector<Source::Foreign>& foreign) {
+  const auto text_size = document_.text_size(work_);
+  if (!text_size) return text_size.error();
+  const Count json_size = (*text_size + 3) / 4 * 4;
+  Count total = kGlbHeaderSize + kChunkHeaderSize + json_size + (size_ > 0 ? kChunkHeaderSize + size_ : 0);
   for (const Source::Foreign& chunk : foreign) total += kChunkHeaderSize + chunk.bytes.size();
   constexpr Count kMaxGlb = std::numeric_limits<std::uint32_t>::max();
   if (total > kMaxGlb)
@@ -126,35 +153,50 @@ Result<Payload> Output::finish_glb(const std::vector<Source::Foreign>& foreign) 
                  {},
                  total,
                  kMaxGlb};
+  const Count head_size = kGlbHeaderSize + kChunkHeaderSize + json_size + kChunkHeaderSize;
   std::string head;
-  for (const Count word : {Count{kGlbMagic}, Count{2}, total, Count{json.size()}, Count{kJsonChunk}})
+  head.reserve(head_size);
+  for (const Count word : {Count{kGlbMagic}, Count{2}, total, json_size, Count{kJsonChunk}})
     append_word(head, word);
-  head += json;
+  if (auto printed = document_.print(head, work_); !printed) return printed.error();
+  head.append(json_size - *text_size, ' ');
+  document_ = Json();
   if (size_ > 0) append_word(head, size_), append_word(head, kBinChunk);
   Payload payload{"model/gltf-binary", {}};
+  payload.chunks.reserve(1 + chunks_.size() + 2 * foreign.size());
   payload.chunks.push_back(Chunk::own(std::move(head)));
   std::move(chunks_.begin(), chunks_.end(), std::back_inserter(payload.chunks));
   for (const Source::Foreign& chunk : foreign) {
     std::string header;
     append_word(header, chunk.bytes.size()), append_word(header, chunk.type);
     payload.chunks.push_back(Chunk::own(std::move(header)));
-    payload.chunks.push_back(Chunk::own(std::vector<std::byte>(chunk.bytes)));
+    payload.chunks.push_back(Chunk{source, std::as_bytes(std::span(chunk.bytes))});
   }
   return payload;
 }
 
-Payload Output::finish_gltf() {
-  const std::string json = document_.text();
+Result<Payload> Output::finish_gltf() {
+  // The answer's own bytes were predicted. Beside them stand the arrays until they are text, and the
+  // document's text until it is cut in two.
+  const auto text_size = document_.text_size(work_);
+  if (!text_size) return text_size.error();
+  if (auto kept = work_.keep(size_ + *text_size + 2 * kBlockBytes); !kept) return kept.error();
+  std::string json;
+  if (auto printed = document_.print(json, work_); !printed) return printed.error();
+  document_ = Json();
   Payload payload{"model/gltf+json", {}};
   const std::size_t mark = json.find(kUriMark);
   if (mark == std::string::npos) {
-    payload.chunks.push_back(Chunk::own(json));
+    payload.chunks.push_back(Chunk::own(std::move(json)));
     return payload;
   }
-  payload.chunks.push_back(Chunk::own(json.substr(0, mark) + "\"data:application/octet-stream;base64,"));
-  std::vector<Chunk> text = encode_base64(chunks_);
-  std::move(text.begin(), text.end(), std::back_inserter(payload.chunks));
-  payload.chunks.push_back(Chunk::own("\"" + json.substr(mark + 1)));
+  std::string rest = "\"" + json.substr(mark + 1);
+  json.resize(mark);
+  payload.chunks.push_back(Chunk::own(std::move(json) + "\"data:application/octet-stream;base64,"));
+  auto text = encode_base64(std::move(chunks_), work_);
+  if (!text) return text.error();
+  std::move(text->begin(), text->end(), std::back_inserter(payload.chunks));
+  payload.chunks.push_back(Chunk::own(std::move(rest)));
   return payload;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,26 +19,33 @@ enum class Target : Count { vertices = 34962, indices = 34963 };
 
 class Output {
  public:
-  // `data`: what buffer 0 holds already, a multiple of 4 bytes.
-  Output(Json document, Chunk data);
+  // `data`: what buffer 0 holds already, a multiple of 4 bytes. What the answer's own bytes take was
+  // predicted and asked for by whoever sends it; what else there must be beside them is asked for here.
+  Output(Json document, Chunk data, Work& work);
 
   Json& primitive(Index mesh, Index primitive);
   // Both append one bufferView and one accessor and return the accessor's number.
   // values: `components` per element; 1 SCALAR, 2..4 VECn.
-  Index add_floats(Buffer<float> values, Index components, bool with_bounds);
+  Result<Index> add_floats(Buffer<float> values, Index components, bool with_bounds);
   // Of 16 bits where `vertex_count` allows it.
-  Index add_indices(Buffer<Index> values, Index vertex_count);
+  Result<Index> add_indices(Buffer<Index> values, Index vertex_count);
 
   Json& asset() { return *document_.find("asset"); }
-  Result<Payload> finish(Format format, const std::vector<Source::Foreign>& foreign) &&;
+  // `source` owns `foreign` and stays alive as long as the answer.
+  Result<Payload> finish(Format format, const std::shared_ptr<const void>& source,
+                         const std::vector<Source::Foreign>& foreign) &&;
 
  private:
   Index add_accessor(Chunk data, Count count, Count component, std::string_view type, Target target,
                      Json bounds);
-  Result<Payload> finish_glb(const std::vector<Source::Foreign>& foreign);
-  Payload finish_gltf();
+  Result<Payload> finish_glb(const std::shared_ptr<const void>& source,
+                             const std::vector<Source::Foreign>& foreign);
+  Result<Payload> finish_gltf();
 
   Json document_;
+  Work& work_;
+  Json::Array views_, accessors_;  // of the document, while they grow
+  Json::Array* meshes_ = nullptr;  // null: the document has none
   std::vector<Chunk> chunks_;
   Count size_ = 0;
 };

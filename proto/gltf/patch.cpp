@@ -1,7 +1,6 @@
 #include "proto/gltf/patch.h"
 
 #include <algorithm>
-#include <set>
 
 #include "proto/gltf/deformation.h"
 #include "proto/gltf/extensions.h"
@@ -10,20 +9,24 @@
 namespace subdivd::proto::gltf {
 namespace {
 
-// Attributes that will be written stay as null, so that they keep their place among the others.
+// Attributes that will be written stay as null, so that they keep their place among the others. `slots` are
+// in the order of their names.
 void empty_attributes(Json& primitive, const std::vector<AttributeSlot>& slots, bool normals) {
   Json::Object kept;
+  kept.reserve(primitive.find("attributes")->object()->size());
   for (Json::Member& member : *primitive.find("attributes")->object()) {
+    const auto slot =
+        std::lower_bound(slots.begin(), slots.end(), member.name,
+                         [](const AttributeSlot& s, const std::string& name) { return s.name < name; });
     const bool written = member.name == "POSITION" || (normals && member.name == "NORMAL") ||
-                         std::any_of(slots.begin(), slots.end(),
-                                     [&](const AttributeSlot& s) { return s.name == member.name; });
+                         (slot != slots.end() && slot->name == member.name);
     if (written) kept.push_back({std::move(member.name), Json()});
   }
   primitive.set("attributes", Json(std::move(kept)));
 }
 
-Json& primitive_at(Json& document, Index mesh, Index primitive) {
-  return (*(*document.find("meshes")->array())[mesh].find("primitives")->array())[primitive];
+Json& primitive_at(Json::Array& meshes, Index mesh, Index primitive) {
+  return (*meshes[mesh].find("primitives")->array())[primitive];
 }
 
 void set_mode(Json& primitive, Count mode) {
@@ -48,37 +51,47 @@ void forget_extension(Json& document, std::string_view name) {
 
 }  // namespace
 
-void patch(Source& source, const Buffers& buffers, Warnings& warnings) {
-  const bool only_append = has_unknown_extension(source.document);
-  const References before = collect_references(source.document);
+Result<void> patch(Source& source, const Buffers& buffers, bool only_append, Warnings& warnings, Work& work) {
+  const auto before = collect_references(source.document, work);
+  if (!before) return before.error();
+  Json::Array& meshes = *source.document.find("meshes")->array();
   bool had_draco = false;
-  std::set<Index> refined_meshes;
+  std::vector<bool> refined_meshes(meshes.size());
   for (const TrianglesSlot& slot : source.triangles) {
-    Json& primitive = primitive_at(source.document, slot.mesh, slot.primitive);
+    if (auto stop = work.spend(64)) return *std::move(stop);
+    Json& primitive = primitive_at(meshes, slot.mesh, slot.primitive);
     empty_attributes(primitive, slot.attributes, slot.normals);
     if (primitive.find("indices") != nullptr) primitive.set("indices", Json());
     set_mode(primitive, kTriangles);
     had_draco |= drop_draco(primitive);
-    refined_meshes.insert(slot.mesh);
+    refined_meshes[slot.mesh] = true;
   }
   for (const CurvesSlot& slot : source.curves) {
-    Json& primitive = primitive_at(source.document, slot.mesh, slot.primitive);
+    if (auto stop = work.spend(64)) return *std::move(stop);
+    Json& primitive = primitive_at(meshes, slot.mesh, slot.primitive);
     empty_attributes(primitive, slot.attributes, false);
     if (slot.mode == kLines && primitive.find("indices") != nullptr) {
       primitive.set("indices", Json());
     } else {
       primitive.erase("indices");
     }
-    refined_meshes.insert(slot.mesh);
+    refined_meshes[slot.mesh] = true;
   }
   if (had_draco) forget_extension(source.document, "KHR_draco_mesh_compression");
-  drop_deformation(source.document, refined_meshes, warnings);
-  if (only_append) {
-    if (!buffers.bytes.empty()) source.data.assign(buffers.bytes[0].begin(), buffers.bytes[0].end());
-  } else {
-    source.data = prune(source.document, before, buffers);
+  if (auto dropped = drop_deformation(source.document, refined_meshes, warnings, work); !dropped)
+    return dropped;
+  if (!only_append) {
+    auto data = prune(source.document, *before, buffers, work);
+    if (!data) return data.error();
+    source.data = *std::move(data);
+  } else if (!buffers.bytes.empty()) {
+    const Bytes first = buffers.bytes[0];
+    if (auto kept = work.keep(first.size() + 4 + kBlockBytes); !kept) return kept;
+    source.data.reserve(first.size() + 4);
+    if (auto copied = append_bytes(source.data, first, work); !copied) return copied;
   }
   source.data.resize((source.data.size() + 3) / 4 * 4);
+  return {};
 }
 
 }  // namespace subdivd::proto::gltf

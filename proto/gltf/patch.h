@@ -11,8 +11,8 @@
 namespace subdivd::proto::gltf {
 
 // `source` has its slots and `document` as read; sets `document` and `data`.
-// Replaced accessors and bufferViews are removed and the rest renumbered, into one buffer; with an extension
-// of unknown meaning aboard nothing is removed, only appended.
-void patch(Source& source, const Buffers& buffers, Warnings& warnings);
+// Replaced accessors and bufferViews are removed and the rest renumbered, into one buffer; `only_append` (an
+// extension of unknown meaning is aboard): nothing is removed.
+Result<void> patch(Source& source, const Buffers& buffers, bool only_append, Warnings& warnings, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -11,11 +11,15 @@ namespace subdivd::proto::gltf {
 struct References {
   std::vector<bool> accessors, views;
 };
-References collect_references(const Json& document);
+Result<References> collect_references(const Json& document, Work& work);
 
 // Removes accessors and bufferViews that were referred to `before` and no longer are, renumbers the rest, and
 // puts the bytes of all remaining views into one buffer, which is returned. Views that overlap keep
 // overlapping: copied one by one, 10^5 views of one buffer would fill the memory.
-std::vector<std::byte> prune(Json& document, const References& before, const Buffers& buffers);
+Result<std::vector<std::byte>> prune(Json& document, const References& before, const Buffers& buffers,
+                                     Work& work);
+
+// `out` must have room for them.
+Result<void> append_bytes(std::vector<std::byte>& out, Bytes bytes, Work& work);
 
 }  // namespace subdivd::proto::gltf

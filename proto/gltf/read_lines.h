@@ -19,10 +19,16 @@ struct ReadLines {
 Result<ReadLines> read_lines(const Asset& asset, Index mesh, Index primitive, const Options& options,
                              const Place& place);
 
+// Chains of vertices one after the other.
+struct ChainList {
+  std::vector<Index> vertices;
+  std::vector<Index> lengths;
+};
 // Segments joined into maximal chains. A closed chain does not repeat its first vertex at the end.
 struct Chains {
-  std::vector<std::vector<Index>> open, closed;
+  ChainList open, closed;
+  Held memory;
 };
-Chains chain_segments(const std::vector<Index>& ends, Index vertex_count);
+Result<Chains> chain_segments(const std::vector<Index>& ends, Index vertex_count, Work& work);
 
 }  // namespace subdivd::proto::gltf

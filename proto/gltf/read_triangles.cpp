@@ -2,254 +2,329 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 #include <utility>
 
+#include "proto/gltf/caps.h"
 #include "proto/gltf/weld.h"
 
 namespace subdivd::proto::gltf {
 namespace {
 
-// One triangle primitive after vertices that nothing uses have been taken out.
+// One triangle primitive. Its corners move on to the mesh.
 struct Part {
   Index primitive = 0;
-  PrimitiveData data;      // positions and corners move on to the mesh
+  PrimitiveData data;
   Index first_vertex = 0;  // of the mesh's vertices
+  Count next_channel = 0;  // of data.channels, while the mesh's channels are read by name
 };
 
-// Takes out the vertices that no corner uses. Returns the original number of every vertex left; empty when
-// all are.
-std::vector<Index> compact(PrimitiveData& data, Warnings& warnings, const Place& place) {
-  std::vector<unsigned char> is_used(data.vertex_count, 0);
-  for (const Index corner : data.corners) is_used[corner] = 1;
-  if (std::find(is_used.begin(), is_used.end(), 0) == is_used.end()) return {};
-  std::vector<Index> renumbered(data.vertex_count, kNoIndex), original;
-  for (Index vertex = 0; vertex < data.vertex_count; ++vertex) {
-    if (is_used[vertex] == 0) continue;
-    const auto used = static_cast<Index>(original.size());
-    renumbered[vertex] = used;
-    original.push_back(vertex);
-    const auto move_down = [&](std::vector<double>& values, Count width) {
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(vertex * width), width,
-                  values.begin() + static_cast<std::ptrdiff_t>(used * width));
-    };
-    move_down(data.positions, 3);
-    for (PrimitiveChannel& channel : data.channels) move_down(channel.values, channel.components);
-  }
-  warnings.add(
-      "Vertices that no triangle uses are left out: " + std::to_string(data.vertex_count - original.size()),
-      place.pointer());
-  data.vertex_count = static_cast<Index>(original.size());
-  data.positions.resize(original.size() * 3);
-  for (PrimitiveChannel& channel : data.channels) channel.values.resize(original.size() * channel.components);
-  for (Index& corner : data.corners) corner = renumbered[corner];
-  return original;
-}
-
-// Appends; a first array is moved, so that the values of a mesh with one primitive are never copied.
-void append(std::vector<double>& all, std::vector<double> more) {
-  if (all.empty()) {
-    all = std::move(more);
-  } else {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-}
-
 // Leaves the values that represent others, in order.
-void keep_first(std::vector<double>& values, Count width, const Welded& weld) {
-  if (weld.all_differ()) return;
-  const auto move_down = [&](Count w) {
-    for (Count id = 0; id < weld.first.size(); ++id)
+Result<void> keep_first(std::vector<double>& values, Count width, const Welded& weld, Work& work) {
+  if (weld.all_differ()) return {};
+  const auto move_down = [&](auto w) -> Result<void> {
+    for (Count id = 0; id < weld.first.size(); ++id) {
+      if (auto stop = work.spend(1)) return *std::move(stop);
       for (Count k = 0; k < w; ++k) values[id * w + k] = values[weld.first[id] * w + k];
+    }
+    return {};
   };
-  if (width == 3) {
-    move_down(3);
-  } else {
-    move_down(width);
-  }
+  const auto moved = width == 3 ? move_down(std::integral_constant<Count, 3>{}) : move_down(width);
+  if (!moved) return moved;
   values.resize(weld.first.size() * width);
+  return {};
 }
 
-// Tuples of `from` numbers as tuples of `to`, the last of which is `padding` and the others before it 0.
-std::vector<double> widened(std::vector<double> values, Count from, Count to, double padding) {
-  if (from == to) return values;
-  const Count count = values.size() / from;
-  std::vector<double> wide(count * to);
-  for (Count i = 0; i < count; ++i) {
-    std::copy_n(&values[i * from], from, &wide[i * to]);
-    wide[i * to + to - 1] = padding;
+// Writes tuples of `from` numbers at the end of `values` as tuples of `to`, the last of which is `padding`
+// and the others behind the given ones 0.
+Result<void> widen_last(std::vector<double>& values, Count count, Count from, Count to, double padding,
+                        Work& work) {
+  if (from == to) return {};
+  const Count begin = values.size() - count * from;
+  values.resize(begin + count * to);
+  for (Count i = count; i-- > 0;) {
+    if (auto stop = work.spend(1)) return *std::move(stop);
+    double* const wide = &values[begin + i * to];
+    const double* const narrow = &values[begin + i * from];
+    for (Count k = to; k-- > 0;) wide[k] = k < from ? narrow[k] : k + 1 == to ? padding : 0.0;
   }
-  return wide;
+  return {};
 }
 
 class MeshReader {
  public:
   MeshReader(const Asset& asset, Index mesh, const Options& options, const Limits& limits, const Place& place)
-      : asset_(asset), options_(options), limits_(limits), place_(place), gltf_mesh_(mesh) {}
+      : asset_(asset),
+        work_(asset.work),
+        options_(options),
+        limits_(limits),
+        place_(place),
+        gltf_mesh_(mesh) {}
 
   Result<ReadMesh> read();
 
  private:
-  Result<void> read_part(Index primitive, const Place& place);
-  void connect();
-  std::vector<Index> corner_ids(const Welded& weld) const;
-  Result<void> check_channel_size() const;
-  void add_channel(const std::string& name, Index width);
+  // What the mesh's primitives have under one name.
+  struct Channel {
+    Index number = 0;  // of the mesh's primvars
+    Index width = 0;
+  };
+
+  Result<void> read_part(Index primitive, const Json& json, const Place& place);
+  Result<void> read_positions();
+  Result<Welded> weld_points(const std::vector<double>& positions);
+  Result<void> connect();
+  Result<std::vector<Index>> corner_ids(const Welded& weld) const;
+  Result<void> check_channels() const;
+  Result<void> add_channel(std::string_view name, Index width);
+  Result<void> append_part(Part& part, std::string_view name, Index width, Primvar& primvar,
+                           std::vector<Index>& groups);
+  void add_slots();
 
   const Asset& asset_;
+  Work& work_;
   const Options& options_;
   const Limits& limits_;
   const Place& place_;
   Index gltf_mesh_;
   std::vector<Part> parts_;
-  Index vertex_count_ = 0;               // of all parts
-  std::vector<double> positions_;        // of all parts' vertices
-  std::vector<Index> origins_;           // unless welding by position: accessor and number of every vertex
-  Welded points_;                        // the points of the vertices
-  std::map<std::string, Index> widths_;  // of every channel of the mesh
+  Count vertex_count_ = 0;                        // of all parts
+  std::map<std::string_view, Channel> channels_;  // of the whole mesh
+  Welded points_;                                 // the points of the vertices
   ReadMesh result_;
 };
 
-Result<void> MeshReader::read_part(Index primitive, const Place& place) {
-  const tinygltf::Primitive& structure = asset_.model.meshes[gltf_mesh_].primitives[primitive];
-  auto data = read_primitive(asset_, structure, place);
+Result<void> MeshReader::read_part(Index primitive, const Json& json, const Place& place) {
+  auto data = read_primitive(asset_, json, place);
   if (!data) return data.error();
-  Part part{primitive, *std::move(data), vertex_count_};
-  part.data.corners = to_triangle_list(std::move(part.data.corners), static_cast<Count>(structure.mode));
-  if (part.data.corners.empty()) {
-    asset_.warnings.add("A primitive whose triangles all repeat a vertex is left as it is", place.pointer());
+  Count beside = sizeof(RenderMesh) + sizeof(TrianglesSlot) + 3 * kBlockBytes;
+  for (const PrimitiveChannel& channel : data->channels)
+    beside += 3 * sizeof(PrimitiveChannel) + sizeof(AttributeSlot) + channel.name.size() + kBlockBytes;
+  if (auto kept = work_.keep(beside); !kept) return kept;
+  auto triangles = to_triangle_list(std::move(data->corners), mode_of(json), work_);
+  if (!triangles) return triangles.error();
+  data->corners = *std::move(triangles);
+  if (data->corners.empty()) {
+    asset_.warnings.add("A primitive whose triangles all repeat a vertex is left as it is", place);
     return {};
   }
-  const std::vector<Index> original = compact(part.data, asset_.warnings, place);
-  vertex_count_ += part.data.vertex_count;
-  append(positions_, std::move(part.data.positions));
-  if (options_.weld == Weld::none)
-    for (Index vertex = 0; vertex < part.data.vertex_count; ++vertex)
-      origins_.insert(origins_.end(),
-                      {part.data.position_accessor, original.empty() ? vertex : original[vertex]});
-  for (const PrimitiveChannel& channel : part.data.channels) {
-    Index& width = widths_[channel.name];
+  const auto left_out = leave_out_unused(*data, work_);
+  if (!left_out) return left_out.error();
+  if (*left_out > 0) asset_.warnings.add("Vertices that no triangle uses are left out", place, *left_out);
+  for (const PrimitiveChannel& channel : data->channels) {
+    Index& width = channels_[channel.name].width;
     width = std::max(width, channel.components);
   }
-  result_.has_normals |= part.data.has_normals;
-  parts_.push_back(std::move(part));
+  if (channels_.size() > kMaxAttributes)
+    return over_limit(place_, channels_.size(), kMaxAttributes,
+                      "the primitives of the mesh have more than the " + std::to_string(kMaxAttributes) +
+                          " different attributes that are allowed");
+  result_.has_normals |= data->has_normals;
+  const auto first_vertex = static_cast<Index>(vertex_count_);
+  vertex_count_ += data->vertex_count;
+  if (vertex_count_ > kMaxIndexCount)
+    return over_limit(place_, vertex_count_, kMaxIndexCount,
+                      "the mesh has more vertices than indices of 32 bits can number");
+  parts_.push_back({primitive, *std::move(data), first_vertex, 0});
   return {};
 }
 
+Result<void> MeshReader::read_positions() {
+  const Place all = place_.at("primitives");
+  std::vector<double>& points = result_.mesh.points;
+  if (auto kept = work_.keep(vertex_count_ * 3 * sizeof(double) + kBlockBytes); !kept) return kept;
+  points.reserve(vertex_count_ * 3);
+  for (const Part& part : parts_) {
+    const Place place = all.at(part.primitive), attributes = place.at("attributes");
+    if (auto read =
+            append_values(asset_, part.data, part.data.position_accessor, attributes.at("POSITION"), points);
+        !read)
+      return read;
+  }
+  return {};
+}
+
+// Unless by position, vertices are the same when their accessor and their number in it are.
+Result<Welded> MeshReader::weld_points(const std::vector<double>& positions) {
+  if (options_.weld == Weld::exact) return weld_tuples(positions, 3, {}, work_);
+  const auto held = work_.hold(vertex_count_ * 2 * sizeof(Index) + kBlockBytes);
+  if (!held) return held.error();
+  std::vector<Index> origins;
+  origins.reserve(vertex_count_ * 2);
+  for (const Part& part : parts_)
+    for (Index vertex = 0; vertex < part.data.vertex_count; ++vertex) {
+      if (auto stop = work_.spend(1)) return *std::move(stop);
+      origins.push_back(part.data.position_accessor);
+      origins.push_back(part.data.original.empty() ? vertex : part.data.original[vertex]);
+    }
+  return weld_tuples(origins, 2, work_);
+}
+
 // For every corner of the mesh the id of its vertex.
-std::vector<Index> MeshReader::corner_ids(const Welded& weld) const {
+Result<std::vector<Index>> MeshReader::corner_ids(const Welded& weld) const {
   const std::vector<RenderMesh>& renders = result_.mesh.render_meshes;
-  if (weld.all_differ() && parts_.size() == 1) return renders.front().indices;
   Count count = 0;
   for (const RenderMesh& render : renders) count += render.indices.size();
-  std::vector<Index> ids(count);
-  Index* out = ids.data();
+  if (auto kept = work_.keep(count * sizeof(Index) + kBlockBytes); !kept) return kept.error();
+  std::vector<Index> ids;
+  ids.reserve(count);
   for (Count i = 0; i < parts_.size(); ++i) {
-    const Index* id = weld.id.data() + parts_[i].first_vertex;
-    for (const Index corner : renders[i].indices) *out++ = id[corner];
+    const Index* const id = weld.id.data() + parts_[i].first_vertex;
+    if (auto stop = work_.spend(16)) return *std::move(stop);
+    for (const Index corner : renders[i].indices) {
+      if (auto stop = work_.spend(1)) return *std::move(stop);
+      ids.push_back(id[corner]);
+    }
   }
   return ids;
 }
 
 // Points, faces and render meshes.
-void MeshReader::connect() {
-  points_ = options_.weld == Weld::exact ? weld_tuples(positions_, 3) : weld_tuples(origins_, 2);
+Result<void> MeshReader::connect() {
   ControlMesh& mesh = result_.mesh;
-  mesh.points = std::move(positions_);
-  keep_first(mesh.points, 3, points_);
+  if (auto read = read_positions(); !read) return read;
+  auto points = weld_points(mesh.points);
+  if (!points) return points.error();
+  points_ = *std::move(points);
+  if (auto moved = keep_first(mesh.points, 3, points_, work_); !moved) return moved;
   Index face = 0;
+  mesh.render_meshes.reserve(parts_.size());
   for (Part& part : parts_) {
     const auto faces = static_cast<Index>(part.data.corners.size() / 3);
     mesh.render_meshes.push_back({face, face + faces, part.data.vertex_count, std::move(part.data.corners)});
     face += faces;
   }
-  mesh.face_vertex_indices = corner_ids(points_);
+  auto ids = corner_ids(points_);
+  if (!ids) return ids.error();
+  mesh.face_vertex_indices = *std::move(ids);
+  return {};
 }
 
-// A channel has an index for every corner of the mesh, even if one small primitive has it: a thousand names
-// for one vertex beside a large primitive would take a thousand times the input.
-Result<void> MeshReader::check_channel_size() const {
+// A channel has an index for every corner of the mesh, even if one small primitive has it: a few names for
+// one vertex beside a large primitive take many times the input.
+Result<void> MeshReader::check_channels() const {
   Count bytes = 0;
-  for (const auto& [name, width] : widths_)
+  for (const auto& [name, channel] : channels_)
     bytes += result_.mesh.face_vertex_indices.size() * sizeof(Index) +
-             Count{vertex_count_} * width * sizeof(double);
+             vertex_count_ * channel.width * sizeof(double);
   if (bytes <= limits_.max_output_bytes) return {};
-  Error error = error_at(place_, ErrorCode::too_large,
-                         "the attributes of this mesh take " + std::to_string(bytes) + " bytes; " +
-                             std::to_string(limits_.max_output_bytes) + " are allowed");
-  error.predicted = bytes;
-  error.allowed = limits_.max_output_bytes;
-  return error;
+  return over_limit(place_, bytes, limits_.max_output_bytes,
+                    "the attributes of this mesh take " + std::to_string(bytes) + " bytes; " +
+                        std::to_string(limits_.max_output_bytes) + " are allowed");
+}
+
+// Appends the part's values. Primitives that lack the attribute get zeros, and groups of their own.
+Result<void> MeshReader::append_part(Part& part, std::string_view name, Index width, Primvar& primvar,
+                                     std::vector<Index>& groups) {
+  if (auto stop = work_.spend(8)) return *std::move(stop);
+  const auto& channels = part.data.channels;
+  if (part.next_channel < channels.size() && channels[part.next_channel].name == name) {
+    const PrimitiveChannel& channel = channels[part.next_channel++];
+    const Place all = place_.at("primitives"), place = all.at(part.primitive),
+                attributes = place.at("attributes");
+    if (auto read = append_values(asset_, part.data, channel.accessor, attributes.at(name), primvar.values);
+        !read)
+      return read;
+    const double padding = semantic_of(name) == Semantic::color ? 1 : 0;  // a colour without alpha is opaque
+    return widen_last(primvar.values, part.data.vertex_count, channel.components, width, padding, work_);
+  }
+  for (Index vertex = 0; vertex < part.data.vertex_count; ++vertex) {
+    if (auto stop = work_.spend(1)) return *std::move(stop);
+    primvar.values.insert(primvar.values.end(), width, 0.0);
+    if (!groups.empty()) groups[part.first_vertex + vertex] += static_cast<Index>(points_.first.size());
+  }
+  return {};
 }
 
 // Values are welded when they belong to the same point and are bit-identical. Primitives that lack the
 // attribute get a zero of their own at each point, apart from every value that was given.
-void MeshReader::add_channel(const std::string& name, Index width) {
-  const double padding = semantic_of(name) == Semantic::color ? 1 : 0;  // a colour without alpha is opaque
-  Primvar primvar{name, Interpolation::face_varying, width, {}, {}};
-  std::vector<Index> groups = points_.all_differ() ? std::vector<Index>() : points_.id;
-  for (Part& part : parts_) {
-    auto& channels = part.data.channels;
-    const auto found =
-        std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == name; });
-    if (found != channels.end()) {
-      append(primvar.values, widened(std::move(found->values), found->components, width, padding));
-      continue;
-    }
-    append(primvar.values, std::vector<double>(Count{part.data.vertex_count} * width));
-    if (groups.empty()) continue;
-    const auto first = groups.begin() + part.first_vertex;
-    for (Index& group : std::span(first, part.data.vertex_count))
-      group += static_cast<Index>(points_.first.size());
+Result<void> MeshReader::add_channel(std::string_view name, Index width) {
+  if (auto kept = work_.keep(vertex_count_ * width * sizeof(double) + name.size() + 2 * kBlockBytes); !kept)
+    return kept;
+  Primvar primvar{std::string(name), Interpolation::face_varying, width, {}, {}};
+  primvar.values.reserve(vertex_count_ * width);
+  const bool split = !points_.all_differ();
+  const auto held = work_.hold(split ? vertex_count_ * sizeof(Index) + kBlockBytes : 0);
+  if (!held) return held.error();
+  std::vector<Index> groups = split ? points_.id : std::vector<Index>();
+  for (Part& part : parts_)
+    if (auto appended = append_part(part, name, width, primvar, groups); !appended) return appended;
+  Welded weld;
+  if (split) {
+    auto welded = weld_tuples(primvar.values, width, groups, work_);
+    if (!welded) return welded.error();
+    weld = *std::move(welded);
+    if (auto moved = keep_first(primvar.values, width, weld, work_); !moved) return moved;
   }
-  if (groups.empty()) {  // every vertex has a point, and so a value, of its own
-    primvar.indices = corner_ids(points_);
-  } else {
-    const Welded weld = weld_tuples(primvar.values, width, groups);
-    keep_first(primvar.values, width, weld);
-    primvar.indices = corner_ids(weld);
-  }
+  // Without groups every vertex has a point, and so a value, of its own.
+  auto ids = corner_ids(split ? weld : points_);
+  if (!ids) return ids.error();
+  primvar.indices = *std::move(ids);
   result_.mesh.primvars.push_back(std::move(primvar));
+  return {};
 }
 
-Result<ReadMesh> MeshReader::read() {
-  const tinygltf::Mesh& structure = asset_.model.meshes[gltf_mesh_];
-  result_.mesh.name = structure.name;
-  const Place all = place_.at("primitives");
-  for (Index i = 0; i < structure.primitives.size(); ++i) {
-    if (static_cast<Count>(structure.primitives[i].mode) < kTriangles) continue;
-    if (auto read = read_part(i, all.at(i)); !read) return read.error();
-  }
-  connect();
-  if (auto fits = check_channel_size(); !fits) return fits.error();
-  for (const auto& [name, width] : widths_) add_channel(name, width);
+void MeshReader::add_slots() {
+  result_.slots.reserve(parts_.size());
   for (Index i = 0; i < parts_.size(); ++i) {
     TrianglesSlot slot{gltf_mesh_, parts_[i].primitive, 0, i, parts_[i].data.has_normals || options_.normals,
                        {}};
-    for (const PrimitiveChannel& channel : parts_[i].data.channels) {
-      const auto primvar = static_cast<Index>(std::distance(widths_.begin(), widths_.find(channel.name)));
-      slot.attributes.push_back({channel.name, primvar, 0, channel.components});
-    }
+    slot.attributes.reserve(parts_[i].data.channels.size());
+    for (const PrimitiveChannel& channel : parts_[i].data.channels)
+      slot.attributes.push_back(
+          {std::string(channel.name), channels_.find(channel.name)->second.number, 0, channel.components});
     result_.slots.push_back(std::move(slot));
   }
+}
+
+Result<ReadMesh> MeshReader::read() {
+  const Json& json = asset_.meshes[gltf_mesh_];
+  result_.mesh.name = short_name(json);
+  const Json::Array& primitives = *json.find("primitives")->array();
+  const Place all = place_.at("primitives");
+  const auto triangles =
+      static_cast<Count>(std::count_if(primitives.begin(), primitives.end(), [](const Json& primitive) {
+        return mode_of(primitive) >= kTriangles;
+      }));
+  if (triangles == 0) return std::move(result_);
+  const auto held = work_.hold(triangles * sizeof(Part) + kBlockBytes);
+  if (!held) return held.error();
+  parts_.reserve(triangles);
+  for (Index i = 0; i < primitives.size(); ++i) {
+    if (mode_of(primitives[i]) < kTriangles) continue;
+    if (auto read = read_part(i, primitives[i], all.at(i)); !read) return read.error();
+  }
+  if (auto connected = connect(); !connected) return connected.error();
+  if (auto fits = check_channels(); !fits) return fits.error();
+  Index number = 0;
+  result_.mesh.primvars.reserve(channels_.size());
+  for (auto& [name, channel] : channels_) {
+    channel.number = number++;
+    if (auto added = add_channel(name, channel.width); !added) return added.error();
+  }
+  add_slots();
   return std::move(result_);
 }
 
 }  // namespace
 
-std::vector<Index> to_triangle_list(std::vector<Index> corners, Count mode) {
+Result<std::vector<Index>> to_triangle_list(std::vector<Index> corners, Count mode, Work& work) {
   if (mode == kTriangles) return corners;
+  if (auto kept = work.keep(corners.size() * 3 * sizeof(Index) + kBlockBytes); !kept) return kept.error();
   std::vector<Index> list;
   list.reserve(corners.size() * 3);
   const auto add = [&](Index a, Index b, Index c) {
     if (a != b && b != c && c != a) list.insert(list.end(), {a, b, c});
   };
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    if (auto stop = work.spend(1)) return *std::move(stop);
     if (mode == kTriangleFan) {
       add(corners[i + 1], corners[i + 2], corners[0]);
     } else {
       add(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
     }
   }
+  work.drop(corners.size() * sizeof(Index));
   return list;
 }
 

@@ -22,6 +22,6 @@ Result<ReadMesh> read_triangles(const Asset& asset, Index mesh, const Options& o
 
 // Corners of triangles out of the corners of a list, strip or fan. Triangles that join strips (they repeat a
 // vertex) are left out of strips and fans.  [glTF 2.0, 3.7.2.1]
-std::vector<Index> to_triangle_list(std::vector<Index> corners, Count mode);
+Result<std::vector<Index>> to_triangle_list(std::vector<Index> corners, Count mode, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -4,10 +4,12 @@
 #include <array>
 #include <optional>
 
+#include "proto/gltf/caps.h"
 #include "proto/gltf/extensions.h"
 #include "proto/gltf/fields.h"
 #include "proto/gltf/references.h"
 #include "proto/gltf/validate_meshes.h"
+#include "proto/suggest.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -21,8 +23,19 @@ Count size_of(const Json& document, std::string_view array) {
   return found == nullptr ? 0 : found->array()->size();
 }
 
-Result<void> check_top_level(const Json& document) {
+Result<void> check_at_most(Count allowed, Count size, const std::string& what, const Place& place) {
+  if (size <= allowed) return {};
+  return over_limit(
+      place, size, allowed,
+      "there are " + std::to_string(size) + " " + what + "; " + std::to_string(allowed) + " are allowed");
+}
+
+Result<void> check_top_level(const Json& document, Work& work) {
   const Place root;
+  if (auto few = check_at_most(kMaxRootMembers, document.object()->size(),
+                               "members at the top of the document", root);
+      !few)
+    return few;
   for (const std::string_view name : kTopLevelArrays) {
     const auto array = optional_array(document, name, root);
     if (!array) return array.error();
@@ -30,6 +43,11 @@ Result<void> check_top_level(const Json& document) {
     const Place place = root.at(name);
     if ((*array)->array()->empty())
       return error_at(place, ErrorCode::wrong_length, "an empty array must be left out");
+    if (auto few = check_at_most(name == "meshes" ? kMaxMeshes : kMaxElements, (*array)->array()->size(),
+                                 std::string(name), place);
+        !few)
+      return few;
+    if (auto stop = work.spend((*array)->array()->size())) return *std::move(stop);
     Count i = 0;
     for (const Json& element : *(*array)->array())
       if (auto is = expect_object(element, place.at(i++)); !is) return is.error();
@@ -37,10 +55,10 @@ Result<void> check_top_level(const Json& document) {
   return {};
 }
 
-Result<void> check_all_references(const Json& document, const Layout& layout) {
+Result<void> check_all_references(const Json& document, const Layout& layout, Work& work) {
   std::optional<Error> first;
   visit_references(document, [&](const Json& value, Referenced kind, const Place& place) {
-    if (first) return;
+    if (first || (first = work.spend(4))) return;
     const bool accessors = kind == Referenced::accessors;
     const auto index = check_reference(value, place, accessors ? "accessors" : "bufferViews",
                                        accessors ? layout.accessors.size() : layout.views.size());
@@ -51,19 +69,21 @@ Result<void> check_all_references(const Json& document, const Layout& layout) {
 }
 
 Result<void> check_index_array(const Json& object, std::string_view name, const Place& place,
-                               std::string_view array, Count size) {
+                               std::string_view array, Count size, Work& work) {
   const auto indices = optional_array(object, name, place);
   if (!indices) return indices.error();
   if (*indices == nullptr) return {};
   const Place inside = place.at(name);
   Count i = 0;
-  for (const Json& index : *(*indices)->array())
+  for (const Json& index : *(*indices)->array()) {
+    if (auto stop = work.spend(1)) return *std::move(stop);
     if (auto good = check_reference(index, inside.at(i++), array, size); !good) return good.error();
+  }
   return {};
 }
 
 // Nodes form a forest: one parent each and no cycle, or whoever walks down the tree never returns.
-Result<void> check_nodes(const Json& document) {
+Result<void> check_nodes(const Json& document, Work& work) {
   const Json* found = document.find("nodes");
   if (found == nullptr) return {};
   const Json::Array& nodes = *found->array();
@@ -76,19 +96,23 @@ Result<void> check_nodes(const Json& document) {
   const std::array<Target, 3> targets{{{"mesh", "meshes", size_of(document, "meshes")},
                                        {"skin", "skins", size_of(document, "skins")},
                                        {"camera", "cameras", size_of(document, "cameras")}}};
+  const auto held = work.hold(2 * (nodes.size() * sizeof(Index) + kBlockBytes));
+  if (!held) return held.error();
   std::vector<Index> parent(nodes.size(), kNoIndex);
   for (Count i = 0; i < nodes.size(); ++i) {
     const Place place = all.at(i);
+    if (auto stop = work.spend(16)) return *std::move(stop);
     for (const Target& target : targets) {
       const auto index = optional_reference(nodes[i], target.member, place, target.array, target.size);
       if (!index) return index.error();
     }
-    if (auto good = check_index_array(nodes[i], "children", place, "nodes", nodes.size()); !good)
+    if (auto good = check_index_array(nodes[i], "children", place, "nodes", nodes.size(), work); !good)
       return good.error();
     const Json* children = nodes[i].find("children");
     if (children == nullptr) continue;
     const Place inside = place.at("children");
     for (Count k = 0; k < children->array()->size(); ++k) {
+      if (auto stop = work.spend(1)) return *std::move(stop);
       Index& its_parent = parent[*(*children->array())[k].integer()];
       if (its_parent != kNoIndex)
         return error_at(inside.at(k), ErrorCode::out_of_range, "this node already has a parent");
@@ -99,6 +123,7 @@ Result<void> check_nodes(const Json& document) {
   std::vector<Index> seen(nodes.size(), kNoIndex);
   for (Index start = 0; start < nodes.size(); ++start)
     for (Index node = start; node != kNoIndex; node = parent[node]) {
+      if (auto stop = work.spend(1)) return *std::move(stop);
       if (seen[node] == start)
         return error_at(all.at(node), ErrorCode::out_of_range, "this node is its own ancestor");
       if (seen[node] != kNoIndex) break;
@@ -107,21 +132,22 @@ Result<void> check_nodes(const Json& document) {
   return {};
 }
 
-Result<void> check_scenes(const Json& document) {
+Result<void> check_scenes(const Json& document, Work& work) {
   const Place root;
   const auto scene = optional_reference(document, "scene", root, "scenes", size_of(document, "scenes"));
   if (!scene) return scene.error();
   std::optional<Error> first;
   const Count nodes = size_of(document, "nodes");
   references::each_element(document, "scenes", root, [&](const Json& element, const Place& place) {
-    if (first) return;
-    if (auto good = check_index_array(element, "nodes", place, "nodes", nodes); !good) first = good.error();
+    if (first || (first = work.spend(8))) return;
+    if (auto good = check_index_array(element, "nodes", place, "nodes", nodes, work); !good)
+      first = good.error();
   });
   if (first) return *first;
   return {};
 }
 
-Result<void> check_animation(const Json& animation, const Place& place, Count nodes) {
+Result<void> check_animation(const Json& animation, const Place& place, Count nodes, Work& work) {
   const auto samplers = optional_array(animation, "samplers", place);
   if (!samplers) return samplers.error();
   const auto channels = optional_array(animation, "channels", place);
@@ -131,6 +157,7 @@ Result<void> check_animation(const Json& animation, const Place& place, Count no
   Count i = 0;
   for (const Json& channel : *(*channels)->array()) {
     const Place here = all.at(i++);
+    if (auto stop = work.spend(16)) return *std::move(stop);
     if (auto is = expect_object(channel, here); !is) return is.error();
     const auto sampler = required_reference(channel, "sampler", here, "samplers",
                                             *samplers == nullptr ? 0 : (*samplers)->array()->size());
@@ -143,17 +170,18 @@ Result<void> check_animation(const Json& animation, const Place& place, Count no
   return {};
 }
 
-Result<void> check_animations_and_skins(const Json& document) {
+Result<void> check_animations_and_skins(const Json& document, Work& work) {
   const Place root;
   std::optional<Error> first;
   const Count nodes = size_of(document, "nodes");
   references::each_element(document, "animations", root, [&](const Json& animation, const Place& place) {
-    if (first) return;
-    if (auto good = check_animation(animation, place, nodes); !good) first = good.error();
+    if (first || (first = work.spend(8))) return;
+    if (auto good = check_animation(animation, place, nodes, work); !good) first = good.error();
   });
   references::each_element(document, "skins", root, [&](const Json& skin, const Place& place) {
-    if (first) return;
-    if (auto good = check_index_array(skin, "joints", place, "nodes", nodes); !good) first = good.error();
+    if (first || (first = work.spend(8))) return;
+    if (auto good = check_index_array(skin, "joints", place, "nodes", nodes, work); !good)
+      first = good.error();
   });
   if (first) return *first;
   return {};
@@ -161,11 +189,11 @@ Result<void> check_animations_and_skins(const Json& document) {
 
 }  // namespace
 
-Result<void> check_asset(const Json& document) {
+Result<void> check_asset(const Json& document, Work& work) {
   const Place root;
   if (document.object() == nullptr)
     return error_at(root, ErrorCode::wrong_type, "a glTF document is a JSON object");
-  if (auto good = check_top_level(document); !good) return good.error();
+  if (auto good = check_top_level(document, work); !good) return good.error();
   const auto asset = required_object(document, "asset", root);
   if (!asset) return asset.error();
   const Place place = root.at("asset");
@@ -185,22 +213,24 @@ Result<void> check_asset(const Json& document) {
     Count i = 0;
     for (const Json& name : *(*names)->array()) {
       const Place here = inside.at(i++);
+      if (auto stop = work.spend(8)) return *std::move(stop);
       if (name.string() == nullptr)
         return error_at(here, ErrorCode::wrong_type, "the name of an extension must stand here");
       if (list == "extensionsRequired" && !is_known_extension(*name.string()))
-        return error_at(here, ErrorCode::unsupported,
-                        "the asset requires " + *name.string() + ", which this version does not know");
+        return error_at(
+            here, ErrorCode::unsupported,
+            "the asset requires " + in_quotes(*name.string()) + ", which this version does not know");
     }
   }
   return {};
 }
 
-Result<void> check_structure(const Json& document, const Layout& layout, const Limits& limits) {
-  if (auto good = check_all_references(document, layout); !good) return good.error();
-  if (auto good = check_nodes(document); !good) return good.error();
-  if (auto good = check_scenes(document); !good) return good.error();
-  if (auto good = check_animations_and_skins(document); !good) return good.error();
-  return check_meshes(document, layout, limits);
+Result<void> check_structure(const Json& document, const Layout& layout, const Limits& limits, Work& work) {
+  if (auto good = check_all_references(document, layout, work); !good) return good.error();
+  if (auto good = check_nodes(document, work); !good) return good.error();
+  if (auto good = check_scenes(document, work); !good) return good.error();
+  if (auto good = check_animations_and_skins(document, work); !good) return good.error();
+  return check_meshes(document, layout, limits, work);
 }
 
 }  // namespace subdivd::proto::gltf

@@ -10,11 +10,12 @@
 
 namespace subdivd::proto::gltf {
 
-// The version, and that nothing is required which this version does not know. Before buffers are decoded.
-Result<void> check_asset(const Json& document);
+// The version, how many there are of everything (caps.h), and that nothing is required which this version
+// does not know. Before buffers are decoded.
+Result<void> check_asset(const Json& document, Work& work);
 
 // References, the node forest, meshes. Also bounds what decoding the primitives will allocate: a thousand
 // primitives may share one accessor, and an accessor without data may claim 2^32 elements.
-Result<void> check_structure(const Json& document, const Layout& layout, const Limits& limits);
+Result<void> check_structure(const Json& document, const Layout& layout, const Limits& limits, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -1,8 +1,8 @@
 #include "proto/gltf/validate_meshes.h"
 
 #include <algorithm>
-#include <set>
 
+#include "proto/gltf/caps.h"
 #include "proto/gltf/fields.h"
 #include "proto/gltf/semantics.h"
 
@@ -12,15 +12,18 @@ namespace {
 struct Checker {
   const Layout& layout;
   const Limits& limits;
+  Work& work;
   Count materials = 0;
   bool quantized = false;  // KHR_mesh_quantization is in use
-  Count decoded_bytes = 0;
+  Count primitive_count = 0;
+  Count decoded_bytes = 0, empty_bytes = 0;
 
   Result<void> mesh(const Json& json, const Place& place);
   Result<void> primitive(const Json& json, const Place& place);
   Result<Count> attributes(const Json& json, const Place& place);  // how many vertices
   Result<void> attribute_type(std::string_view name, const AccessorInfo& info, const Place& place) const;
   Result<Count> indices(const Json& json, const Place& place);  // how many; 0 when not indexed
+  Result<void> decode(const AccessorInfo& info, Count elements, const Place& place);
   Result<void> decode(Count bytes, const Place& place);
 };
 
@@ -52,12 +55,22 @@ Result<void> Checker::attribute_type(std::string_view name, const AccessorInfo& 
 Result<void> Checker::decode(Count bytes, const Place& place) {
   decoded_bytes += bytes;
   if (decoded_bytes <= limits.max_output_bytes) return {};
-  Error error = error_at(place, ErrorCode::too_large,
-                         "the primitives hold " + std::to_string(decoded_bytes) + " bytes or more; " +
-                             std::to_string(limits.max_output_bytes) + " are allowed");
-  error.predicted = decoded_bytes;
-  error.allowed = limits.max_output_bytes;
-  return error;
+  return over_limit(place, decoded_bytes, limits.max_output_bytes,
+                    "the primitives hold " + std::to_string(decoded_bytes) + " bytes or more; " +
+                        std::to_string(limits.max_output_bytes) + " are allowed");
+}
+
+// Elements without data cost the caller nothing: they may be as many as a body could hold.
+Result<void> Checker::decode(const AccessorInfo& info, Count elements, const Place& place) {
+  if (!info.view) {
+    empty_bytes += elements * info.components * component_size(info.component);
+    if (empty_bytes > limits.max_body_bytes) {
+      return over_limit(place, empty_bytes, limits.max_body_bytes,
+                        "accessors without \"bufferView\" stand for " + std::to_string(empty_bytes) +
+                            " bytes or more; " + std::to_string(limits.max_body_bytes) + " are allowed");
+    }
+  }
+  return decode(elements * info.components * sizeof(double), place);
 }
 
 Result<Count> Checker::attributes(const Json& json, const Place& place) {
@@ -66,6 +79,15 @@ Result<Count> Checker::attributes(const Json& json, const Place& place) {
   const Place inside = place.at("attributes");
   const Json::Object& members = *(*found)->object();
   if (members.empty()) return error_at(inside, ErrorCode::missing_field, "\"POSITION\" is missing");
+  if (members.size() > kMaxAttributes) {
+    return over_limit(inside, members.size(), kMaxAttributes,
+                      "the primitive has " + std::to_string(members.size()) + " attributes; " +
+                          std::to_string(kMaxAttributes) + " are allowed");
+  }
+  // Of a long array that many primitives share each reads the vertices that it uses.
+  const Json* indices = json.find("indices");
+  const Count used =
+      indices == nullptr || indices->is_null() ? kMaxIndexCount : layout.accessors[*indices->integer()].count;
   std::optional<Count> count;
   for (const Json::Member& member : members) {
     const Place here = inside.at(member.name);
@@ -79,7 +101,7 @@ Result<Count> Checker::attributes(const Json& json, const Place& place) {
                           std::to_string(*count));
     count = info.count;
     if (auto good = attribute_type(member.name, info, here); !good) return good.error();
-    if (auto good = decode(info.count * info.components * sizeof(double), here); !good) return good.error();
+    if (auto good = decode(info, std::min(info.count, used), here); !good) return good.error();
   }
   return *count;
 }
@@ -106,6 +128,12 @@ Result<Count> Checker::indices(const Json& json, const Place& place) {
 }
 
 Result<void> Checker::primitive(const Json& json, const Place& place) {
+  if (auto stop = work.spend(64)) return *std::move(stop);
+  if (++primitive_count > kMaxPrimitives) {
+    return over_limit(
+        place, primitive_count, kMaxPrimitives,
+        "the meshes have more than the " + std::to_string(kMaxPrimitives) + " primitives that are allowed");
+  }
   if (auto is = expect_object(json, place); !is) return is.error();
   const auto material = optional_reference(json, "material", place, "materials", materials);
   if (!material) return material.error();
@@ -154,8 +182,8 @@ bool lists(const Json& document, std::string_view array, std::string_view name) 
 
 }  // namespace
 
-Result<void> check_meshes(const Json& document, const Layout& layout, const Limits& limits) {
-  Checker checker{layout, limits};
+Result<void> check_meshes(const Json& document, const Layout& layout, const Limits& limits, Work& work) {
+  Checker checker{layout, limits, work};
   if (const Json* materials = document.find("materials")) checker.materials = materials->array()->size();
   checker.quantized = lists(document, "extensionsUsed", "KHR_mesh_quantization") ||
                       lists(document, "extensionsRequired", "KHR_mesh_quantization");

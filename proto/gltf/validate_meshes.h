@@ -7,6 +7,6 @@
 namespace subdivd::proto::gltf {
 
 // The part of check_structure that is about `meshes`; references have been checked.
-Result<void> check_meshes(const Json& document, const Layout& layout, const Limits& limits);
+Result<void> check_meshes(const Json& document, const Layout& layout, const Limits& limits, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/index.h"
+#include "proto/gltf/fields.h"
 
 namespace subdivd::proto::gltf {
 
@@ -12,14 +13,14 @@ namespace subdivd::proto::gltf {
 // tangents are one line in the answer.
 class Warnings {
  public:
-  // `kind` is a sentence without its full stop; `place` a JSON Pointer.
-  void add(std::string_view kind, std::string_view place);
+  // `kind` is a sentence without its full stop; what `amount` counts is added up over all places.
+  void add(std::string_view kind, const Place& place, Count amount = 0);
   std::vector<std::string> sentences() const;  // in order of first appearance
 
  private:
   struct Entry {
     std::string kind, first_place;
-    Count count = 0;
+    Count places = 0, amount = 0;
   };
   std::vector<Entry> entries_;
   std::map<std::string, std::size_t, std::less<>> known_;

@@ -4,9 +4,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <optional>
+#include <utility>
 
 #include "core/base/buffer.h"
+#include "proto/gltf/polled_sort.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -50,26 +51,37 @@ class Rows {
   Count run_time_width_;
 };
 
-// Open addressing; a slot holds id + 1 and, in the bits that ids leave, as many of the hash. Gives up when
-// rows collide more than chance lets them: the mixing is no secret, so an attacker can make all of them.
+Result<Welded> room_for(Count count, Work& work) {
+  auto held = work.hold(2 * (count * sizeof(Index) + kBlockBytes));
+  if (!held) return held.error();
+  Welded weld;
+  weld.memory = *std::move(held);
+  if (auto grown = grow(weld.id, count, work); !grown) return grown.error();
+  return weld;
+}
+
+// Open addressing; a slot holds id + 1 and, in the bits that ids leave, as many of the hash. Gives up (false)
+// when rows collide more than chance lets them: the mixing is no secret, so an attacker can make all of them.
 template <class R>
-std::optional<Welded> weld_by_hashing(const R& rows, Count count) {
+Result<bool> weld_by_hashing(const R& rows, Count count, Welded& weld, Work& work) {
   constexpr Count kBlock = 32;  // rows whose slots are fetched ahead
-  if (count >= Count{1} << 31) return {};
+  if (count >= Count{1} << 31) return false;
   const int slot_bits = std::max(static_cast<int>(std::bit_width(count)) + 1, 4);
   const int shift = 64 - slot_bits;
   const Count mask = (Count{1} << slot_bits) - 1;
   const Index tag_mask = ~((Index{1} << std::bit_width(count)) - 1);
-  Buffer<Index> slots(mask + 1,
-                      0);  // looked into everywhere at once: small pages would cost a walk for each look
-  Welded weld;
-  weld.id.resize(count);
-  weld.first.resize(count);
+  const Count bytes = (mask + 1) * sizeof(Index);
+  const auto held = work.hold(bytes + (bytes >= kHugePage ? kHugePage : kBlockBytes));
+  if (!held) return held.error();
+  // Looked into everywhere at once: small pages would cost a walk for each look.
+  Buffer<Index> slots;
+  if (auto grown = grow(slots, mask + 1, work); !grown) return grown.error();
+  if (auto grown = grow(weld.first, count, work); !grown) return grown.error();
   Index ids = 0;
   Count steps_left = 8 * count + 1024;
   std::array<std::uint64_t, kBlock> hashes;
   for (Count begin = 0; begin < count; begin += kBlock) {
-    const Count size = std::min(kBlock, count - begin);
+    const Count size = std::min(kBlock, count - begin), before = steps_left;
     for (Count k = 0; k < size; ++k) {
       hashes[k] = rows.hash(begin + k);
       __builtin_prefetch(&slots[hashes[k] >> shift]);
@@ -92,45 +104,55 @@ std::optional<Welded> weld_by_hashing(const R& rows, Count count) {
             break;
           }
         }
-        if (--steps_left == 0) return {};
+        if (--steps_left == 0) return false;
       }
     }
+    if (auto stop = work.spend((size + before - steps_left) * (rows.width() + 4) / 2))
+      return *std::move(stop);
   }
   weld.first.resize(ids);
-  return weld;
+  return true;
 }
 
 template <class R>
-Welded sort_rows(const R& rows, Count count) {
+Result<void> sort_rows(const R& rows, Count count, Welded& weld, Work& work) {
   // The first word rides along: most comparisons never touch the values.
   struct Entry {
     std::uint64_t word;
     Index row;
   };
+  const auto held = work.hold(count * (sizeof(Entry) + sizeof(Index)) + 2 * kBlockBytes);
+  if (!held) return held.error();
   std::vector<Entry> order(count);
-  for (Count i = 0; i < count; ++i)
+  for (Count i = 0; i < count; ++i) {
+    if (auto stop = work.spend(1)) return *std::move(stop);
     order[i] = {rows.width() == 0 ? 0 : rows.word(i, 0), static_cast<Index>(i)};
+  }
   const auto compare_rest = [&](Index a, Index b) {
     if (rows.group(a) != rows.group(b)) return rows.group(a) < rows.group(b) ? -1 : 1;
     for (Count k = 1; k < rows.width(); ++k)
       if (const std::uint64_t x = rows.word(a, k), y = rows.word(b, k); x != y) return x < y ? -1 : 1;
     return 0;
   };
-  std::sort(order.begin(), order.end(), [&](const Entry& a, const Entry& b) {
+  const auto less = [&](const Entry& a, const Entry& b) {
     if (a.word != b.word) return a.word < b.word;
     const int rest = compare_rest(a.row, b.row);
     return rest != 0 ? rest < 0 : a.row < b.row;
-  });
+  };
+  const Count cost = 2 + rows.width() / 2;
+  if (auto sorted = polled_sort(order, less, work, cost); !sorted) return sorted;
 
-  Welded weld;
-  weld.id.resize(count);
   std::vector<Index> representative(count);
   for (Count i = 0; i < count; ++i) {
+    if (auto stop = work.spend(cost)) return *std::move(stop);
     const bool same =
         i > 0 && order[i].word == order[i - 1].word && compare_rest(order[i].row, order[i - 1].row) == 0;
     representative[order[i].row] = same ? representative[order[i - 1].row] : order[i].row;
   }
+  weld.first.clear();
+  weld.first.reserve(count);
   for (Index i = 0; i < count; ++i) {
+    if (auto stop = work.spend(1)) return *std::move(stop);
     if (representative[i] == i) {
       weld.id[i] = static_cast<Index>(weld.first.size());
       weld.first.push_back(i);
@@ -138,39 +160,53 @@ Welded sort_rows(const R& rows, Count count) {
       weld.id[i] = weld.id[representative[i]];
     }
   }
-  return weld;
+  return {};
 }
 
 template <Count kWidth, class Number>
-Welded weld_rows(std::span<const Number> values, Count width, std::span<const Index> groups) {
+Result<Welded> weld_rows(std::span<const Number> values, Count width, std::span<const Index> groups,
+                         Work& work) {
   const Rows<Number, kWidth> rows(values, width, groups);
   const Count count = width == 0 ? groups.size() : values.size() / width;
-  if (auto weld = weld_by_hashing(rows, count)) return *std::move(weld);
-  return sort_rows(rows, count);
+  auto weld = room_for(count, work);
+  if (!weld) return weld;
+  const auto done = weld_by_hashing(rows, count, *weld, work);
+  if (!done) return done.error();
+  if (!*done)
+    if (auto sorted = sort_rows(rows, count, *weld, work); !sorted) return sorted.error();
+  return weld;
 }
 
 }  // namespace
 
-Welded weld_tuples(std::span<const double> values, Count width, std::span<const Index> groups) {
+Result<Welded> weld_tuples(std::span<const double> values, Count width, std::span<const Index> groups,
+                           Work& work) {
   switch (width) {
     case 2:
-      return weld_rows<2>(values, width, groups);
+      return weld_rows<2>(values, width, groups, work);
     case 3:
-      return weld_rows<3>(values, width, groups);
+      return weld_rows<3>(values, width, groups, work);
     default:
-      return weld_rows<0>(values, width, groups);
+      return weld_rows<0>(values, width, groups, work);
   }
 }
 
-Welded weld_tuples(std::span<const Index> values, Count width) { return weld_rows<0>(values, width, {}); }
+Result<Welded> weld_tuples(std::span<const Index> values, Count width, Work& work) {
+  return weld_rows<0>(values, width, std::span<const Index>(), work);
+}
 
 std::uint64_t hash_of_tuple(std::span<const double> tuple) {
   return Rows<double, 0>(tuple, tuple.size(), {}).hash(0);
 }
 
-Welded weld_by_sorting(std::span<const double> values, Count width, std::span<const Index> groups) {
+Result<Welded> weld_by_sorting(std::span<const double> values, Count width, std::span<const Index> groups,
+                               Work& work) {
   const Rows<double, 0> rows(values, width, groups);
-  return sort_rows(rows, width == 0 ? groups.size() : values.size() / width);
+  const Count count = width == 0 ? groups.size() : values.size() / width;
+  auto weld = room_for(count, work);
+  if (!weld) return weld;
+  if (auto sorted = sort_rows(rows, count, *weld, work); !sorted) return sorted.error();
+  return weld;
 }
 
 }  // namespace subdivd::proto::gltf

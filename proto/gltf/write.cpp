@@ -12,12 +12,18 @@
 namespace subdivd::proto::gltf {
 namespace {
 
+// What an array of the answer takes in the tree (its bufferView and accessor, lists that double) and beside
+// it (its chunk), and what a primitive takes.
+constexpr Count kArrayBytes = 2048, kSlotBytes = 512;
+
 // The envelope under asset.extras.subdivd, with the warnings that came up while writing. Extras that are no
 // object move to a member of their own.
-Result<void> attach(Json& asset, std::string_view envelope, const std::vector<std::string>& warnings) {
+Result<void> attach(Json& asset, std::string_view envelope, const std::vector<std::string>& warnings,
+                    Work& work) {
   Json ours = Json::raw(std::string(envelope));
   if (!warnings.empty()) {
-    auto parsed = parse_json(envelope, {64, kMaxIndexCount});
+    auto parsed = parse_json(envelope, {64, kMaxIndexCount}, work);
+    if (!parsed && parsed.error().code != ErrorCode::malformed) return parsed.error();
     if (!parsed || parsed->object() == nullptr)
       return Error{ErrorCode::internal, "the envelope of the answer is no JSON object", {}, 0, 0};
     ours = *std::move(parsed);
@@ -56,15 +62,22 @@ RefinedMesh<Real> mesh_of(RefinedPatch<Real> surface) {
 }
 
 template <class Real>
-Result<void> fill(const Source& source, RefineAnswer<Real>& answer, Output& output, Warnings& warnings) {
+Result<void> fill(const Source& source, RefineAnswer<Real>& answer, Output& output, Warnings& warnings,
+                  Work& work) {
   for (const TrianglesSlot& slot : source.triangles)
-    if (auto written = write_triangles(slot, answer.meshes[slot.control_mesh], output, warnings); !written)
+    if (auto written = write_triangles(slot, answer.meshes[slot.control_mesh], output, warnings, work);
+        !written)
       return written;
-  for (const CurvesSlot& slot : source.curves)
-    if (auto written = write_curves(slot, answer.curves, output); !written) return written;
+  Count first_point = 0;  // of the curve that the slot shows; curves of one element follow each other
+  for (const CurvesSlot& slot : source.curves) {
+    if (slot.ordinal == 0) first_point = 0;
+    if (auto written = write_curves(slot, answer.curves, first_point, output, work); !written) return written;
+    const std::vector<Index>& counts = answer.curves[slot.curves.front()].vertex_counts;
+    if (slot.ordinal < counts.size()) first_point += counts[slot.ordinal];
+  }
   for (const TrianglesSlot& slot : source.surfaces) {
     RefinedMesh<Real> mesh = mesh_of(std::move(answer.surfaces[slot.control_mesh]));
-    if (auto written = write_triangles(slot, mesh, output, warnings); !written) return written;
+    if (auto written = write_triangles(slot, mesh, output, warnings, work); !written) return written;
   }
   return {};
 }
@@ -118,7 +131,8 @@ Count surface_bytes(const TrianglesSlot& slot, const ControlPatch& surface, Inde
   return u * v * (slot.normals ? 6 : 3) * sizeof(float) + index_bytes(6 * quads, u * v);
 }
 
-Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all, Index level) {
+Result<Count> curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all, Index level,
+                           Work& work) {
   Count points = 0, segments = 0;
   for (const Index index : slot.curves) {
     const ControlCurves& curves = all[index];
@@ -128,8 +142,10 @@ Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all
       continue;
     }
     const Count count = curves.vertex_counts.empty() ? 1 : curves.vertex_counts.size();
-    for (Count ordinal = 0; ordinal < count; ++ordinal) {
-      if (slot.mode != kLines && ordinal != slot.ordinal) continue;
+    const bool whole = slot.mode == kLines;
+    for (Count ordinal = whole ? 0 : slot.ordinal; ordinal < (whole ? count : slot.ordinal + Count{1});
+         ++ordinal) {
+      if (auto stop = work.spend(4)) return *std::move(stop);
       const Count controls =
           curves.vertex_counts.empty() ? curves.point_count() : curves.vertex_counts[ordinal];
       const Count refined = refined_point_count(curves, controls, level);
@@ -144,26 +160,38 @@ Count curves_bytes(const CurvesSlot& slot, const std::vector<ControlCurves>& all
 
 }  // namespace
 
-Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes) {
+Result<Count> predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes,
+                              const Budget& budget) {
+  Work work(budget);
   std::vector<std::string> warnings;
-  const Source made = request.source ? Source() : make_source(request, warnings);
-  const Source& source = request.source ? *request.source : made;
+  auto made = request.source ? Result<Source>(Source()) : make_source(request, warnings, work);
+  if (!made) return made.error();
+  const Source& source = request.source ? *request.source : *made;
+  const auto text = source.document.text_size(work);
+  if (!text) return text.error();
   Count bin = source.data.size();
-  Count json = source.document.text().size() + envelope_bytes(request) + 1024;
+  Count json = *text + envelope_bytes(request) + 1024;
+  // Arrays begin at multiples of 4; those of curves and vertices do so by themselves.
+  const auto add_attributes = [&](const std::vector<AttributeSlot>& attributes, Count others) {
+    json += (attributes.size() + others) * kAccessorTextBytes;
+    for (const AttributeSlot& attribute : attributes) json += 6 * attribute.name.size();
+  };
   for (const TrianglesSlot& slot : source.triangles) {
+    if (auto stop = work.spend(32)) return *std::move(stop);
     bin += triangles_bytes(slot, request.meshes[slot.control_mesh], meshes[slot.control_mesh],
                            request.options.level);
-    json += (slot.attributes.size() + 3) * kAccessorTextBytes;
-    for (const AttributeSlot& attribute : slot.attributes) json += 6 * attribute.name.size();
+    add_attributes(slot.attributes, 3);
   }
   for (const CurvesSlot& slot : source.curves) {
-    bin += curves_bytes(slot, request.curves, request.options.level);
-    json += (slot.attributes.size() + 2) * kAccessorTextBytes;
-    for (const AttributeSlot& attribute : slot.attributes) json += 6 * attribute.name.size();
+    const auto bytes = curves_bytes(slot, request.curves, request.options.level, work);
+    if (!bytes) return bytes;
+    bin += *bytes;
+    add_attributes(slot.attributes, 2);
   }
   for (const TrianglesSlot& slot : source.surfaces) {
+    if (auto stop = work.spend(32)) return *std::move(stop);
     bin += surface_bytes(slot, request.surfaces[slot.control_mesh], request.options.level);
-    json += 3 * kAccessorTextBytes;
+    add_attributes(slot.attributes, 3);
   }
   if (answer_format(request) == Format::gltf) return json + (bin + 2) / 3 * 4;
   for (const Source::Foreign& chunk : source.foreign) json += chunk.bytes.size() + 8;
@@ -171,18 +199,33 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
 }
 
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format format,
-                      std::string_view envelope, [[maybe_unused]] const Budget& budget) {
+                      std::string_view envelope, const Budget& budget) {
+  Work work(budget);
   std::vector<std::string> sentences;
-  Source made;
-  if (!request.source) made = make_source(request, sentences);
-  const Source& source = request.source ? *request.source : made;
-  Output output(source.document, Chunk{request.source, source.data});
+  std::shared_ptr<const Source> source = request.source;
+  if (!source) {
+    auto made = make_source(request, sentences, work);
+    if (!made) return made.error();
+    source = std::make_shared<const Source>(*std::move(made));
+  }
+  // The answer's document: a copy, and what each slot adds to it.
+  const auto bytes = source->document.heap_bytes(work);
+  if (!bytes) return bytes.error();
+  Count slots = source->triangles.size() + source->curves.size() + source->surfaces.size();
+  Count arrays = 2 * slots;
+  for (const TrianglesSlot& slot : source->triangles) arrays += slot.attributes.size() + 1;
+  for (const CurvesSlot& slot : source->curves) arrays += slot.attributes.size();
+  if (auto kept = work.keep(*bytes + arrays * kArrayBytes + slots * kSlotBytes); !kept) return kept.error();
+  auto document = source->document.copy(work);
+  if (!document) return document.error();
+  Output output(*std::move(document), Chunk{source, source->data}, work);
   Warnings warnings;
-  const auto filled = std::visit([&](auto& real) { return fill(source, real, output, warnings); }, answer);
+  const auto filled =
+      std::visit([&](auto& real) { return fill(*source, real, output, warnings, work); }, answer);
   if (!filled) return filled.error();
   for (const std::string& sentence : warnings.sentences()) sentences.push_back(sentence);
-  if (auto attached = attach(output.asset(), envelope, sentences); !attached) return attached.error();
-  return std::move(output).finish(format, source.foreign);
+  if (auto attached = attach(output.asset(), envelope, sentences, work); !attached) return attached.error();
+  return std::move(output).finish(format, source, source->foreign);
 }
 
 }  // namespace subdivd::proto::gltf

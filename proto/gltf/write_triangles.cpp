@@ -2,49 +2,54 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 #include "core/base/buffer.h"
+#include "core/mesh/scan.h"
+#include "proto/suggest.h"
 
 namespace subdivd::proto::gltf {
 namespace {
 
 Error not_single(const std::string& attribute) {
   return Error{ErrorCode::not_finite,
-               attribute + " holds values too large for the single precision of glTF",
+               (attribute == "POSITION" ? attribute : in_quotes(attribute)) +
+                   " holds values too large for the single precision of glTF",
                {},
                0,
                0};
 }
 
-// A test of bits, and no way out before the end: the loop fills the lanes.
-bool all_finite(std::span<const float> values) {
-  constexpr std::uint32_t kExponent = 0x7f800000;
-  std::uint32_t bad = 0;
-  for (const float value : values)
-    bad |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent);
-  return bad == 0;
+constexpr Count kPiece = 16384;  // elements between two looks at the clock
+
+Result<bool> are_finite(std::span<const float> values, Work& work) {
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), kPiece))) {
+    const auto piece = values.first(std::min(values.size(), kPiece));
+    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
+    if (!all_finite(piece)) return false;
+  }
+  return true;
 }
 
 template <class Real>
 class TrianglesWriter {
  public:
-  TrianglesWriter(const TrianglesSlot& slot, RefinedMesh<Real>& mesh, Output& output, Warnings& warnings)
-      : slot_(slot), mesh_(mesh), output_(output), warnings_(warnings) {}
+  TrianglesWriter(const TrianglesSlot& slot, RefinedMesh<Real>& mesh, Output& output, Warnings& warnings,
+                  Work& work)
+      : slot_(slot), mesh_(mesh), output_(output), warnings_(warnings), work_(work) {}
 
   Result<void> write();
 
  private:
-  void find_vertices();
-  Buffer<float> taken(Buffer<Real>& values, Index width, Index components,
-                      std::span<const Index> sources) const;
-  Buffer<float> positions();
-  Buffer<float> normals(std::span<const float> positions);
-  Buffer<float> attribute(const AttributeSlot& attribute);
+  Result<void> find_vertices();
+  Result<Buffer<float>> taken(Buffer<Real>& values, Index width, Index components,
+                              std::span<const Index> sources) const;
+  Result<Buffer<float>> positions();
+  Result<Buffer<float>> normals(std::span<const float> positions);
+  Result<Buffer<float>> attribute(const AttributeSlot& attribute);
   std::span<const Index> sources_of(const AttributeSlot& attribute) const;
   Result<void> add(const std::string& name, Buffer<float> values, Index components, bool bounds);
 
@@ -52,6 +57,7 @@ class TrianglesWriter {
   RefinedMesh<Real>& mesh_;
   Output& output_;
   Warnings& warnings_;
+  Work& work_;
   Index vertex_count_ = 0;
   Buffer<Index> indices_;
   RefinedRenderMesh* render_ = nullptr;  // null: vertices are the refined mesh's own
@@ -59,54 +65,67 @@ class TrianglesWriter {
 };
 
 // Vertices that no triangle uses copy some vertex of their primitive, so that bounds stay tight.
-bool stand_in(Buffer<Index>& sources) {
+// False: there is none that any uses.
+Result<bool> stand_in(Buffer<Index>& sources, Work& work) {
   const auto used = std::ranges::find_if(sources, [](Index source) { return source != kNoIndex; });
   if (used == sources.end()) return false;
-  std::ranges::replace(sources, kNoIndex, Index{*used});
+  const Index source = *used;
+  for (std::span<Index> rest(sources); !rest.empty(); rest = rest.subspan(std::min(rest.size(), kPiece))) {
+    if (auto stop = work.spend(kPiece / 4)) return *std::move(stop);
+    std::ranges::replace(rest.first(std::min(rest.size(), kPiece)), kNoIndex, source);
+  }
   return true;
 }
 
 template <class Real>
-void TrianglesWriter<Real>::find_vertices() {
+Result<void> TrianglesWriter<Real>::find_vertices() {
   if (slot_.render_mesh == kNoIndex) {
     vertex_count_ = static_cast<Index>(mesh_.points.size() / 3);
     indices_ = std::move(mesh_.triangles);
-    return;
+    return {};
   }
   render_ = &mesh_.render_meshes[slot_.render_mesh];
   indices_ = std::move(render_->indices);
-  vertex_count_ = stand_in(render_->source_vertices) ? render_->vertex_count : 0;
-  for (Buffer<Index>& sources : render_->source_values) stand_in(sources);
+  const auto used = stand_in(render_->source_vertices, work_);
+  if (!used) return used.error();
+  vertex_count_ = *used ? render_->vertex_count : 0;
+  for (Buffer<Index>& sources : render_->source_values)
+    if (auto done = stand_in(sources, work_); !done) return done.error();
+  return {};
 }
 
 // The first `components` of every value, in the vertices' order. Without sources and with nothing to leave
 // out the refined array itself travels on: no copy between the core and the socket. With sources this gather
 // is that copy: split vertices exist nowhere else.
 template <class Real>
-Buffer<float> TrianglesWriter<Real>::taken(Buffer<Real>& values, Index width, Index components,
-                                           std::span<const Index> sources) const {
+Result<Buffer<float>> TrianglesWriter<Real>::taken(Buffer<Real>& values, Index width, Index components,
+                                                   std::span<const Index> sources) const {
   if constexpr (std::is_same_v<Real, float>)
     if (sources.empty() && width == components && values.size() == Count{vertex_count_} * width)
       return std::move(values);
   Buffer<float> out(Count{vertex_count_} * components);
-  const auto gather = [&](auto count) {
+  const auto gather = [&](auto count) -> Result<void> {
     float* to = out.data();
-    for (Index v = 0; v < vertex_count_; ++v, to += count) {
-      const Real* from = values.data() + Count{sources.empty() ? v : sources[v]} * width;
-      for (Index k = 0; k < count; ++k) to[k] = static_cast<float>(from[k]);
+    for (Index begin = 0; begin < vertex_count_;) {
+      const auto end = static_cast<Index>(std::min<Count>(begin + kPiece, vertex_count_));
+      for (Index v = begin; v < end; ++v, to += count) {
+        const Real* from = values.data() + Count{sources.empty() ? v : sources[v]} * width;
+        for (Index k = 0; k < count; ++k) to[k] = static_cast<float>(from[k]);
+      }
+      if (auto stop = work_.spend(end - begin)) return *std::move(stop);
+      begin = end;
     }
+    return {};
   };
-  if (components == 3)
-    gather(std::integral_constant<Index, 3>{});
-  else if (components == 2)
-    gather(std::integral_constant<Index, 2>{});
-  else
-    gather(components);
+  const auto gathered = components == 3   ? gather(std::integral_constant<Index, 3>{})
+                        : components == 2 ? gather(std::integral_constant<Index, 2>{})
+                                          : gather(components);
+  if (!gathered) return gathered.error();
   return out;
 }
 
 template <class Real>
-Buffer<float> TrianglesWriter<Real>::positions() {
+Result<Buffer<float>> TrianglesWriter<Real>::positions() {
   Buffer<Real>& points = mesh_.limit_points.empty() ? mesh_.points : mesh_.limit_points;
   return taken(
       points, 3, 3,
@@ -114,6 +133,10 @@ Buffer<float> TrianglesWriter<Real>::positions() {
 }
 
 using Vector = std::array<double, 3>;
+
+// Looking for a vertex's triangle is linear in the mesh. Not for more vertices than this, or a mesh of
+// nothing else takes its square; and not in longer meshes: one look takes 20 ms there.
+constexpr Count kMostLookedFor = 64, kLongestLookedThrough = 12'000'000;
 
 // Of the first triangle that uses the vertex and has an area; upright where there is none.
 Vector flat_normal(std::span<const float> positions, std::span<const Index> indices, Index vertex) {
@@ -130,22 +153,26 @@ Vector flat_normal(std::span<const float> positions, std::span<const Index> indi
 }
 
 template <class Real>
-Buffer<float> TrianglesWriter<Real>::normals(std::span<const float> positions) {
-  Buffer<float> out =
+Result<Buffer<float>> TrianglesWriter<Real>::normals(std::span<const float> positions) {
+  Result<Buffer<float>> out =
       taken(mesh_.normals, 3, 3,
             render_ != nullptr ? std::span<const Index>(render_->source_vertices) : std::span<const Index>());
+  if (!out) return out;
   Count stand_ins = 0;
   for (Index v = 0; v < vertex_count_; ++v) {
-    float* normal = out.data() + Count{v} * 3;
+    if (v % 4096 == 0)
+      if (auto stop = work_.spend(1024)) return *std::move(stop);
+    float* normal = out->data() + Count{v} * 3;
     if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0) continue;
-    // Looking for a triangle is linear in the mesh; bounded, or a mesh of such vertices takes its square.
-    const Vector flat = ++stand_ins <= 64 ? flat_normal(positions, indices_, v) : Vector{0, 0, 1};
+    const bool look = ++stand_ins <= kMostLookedFor && indices_.size() <= kLongestLookedThrough;
+    if (look)
+      if (auto stop = work_.spend(indices_.size())) return *std::move(stop);
+    const Vector flat = look ? flat_normal(positions, indices_, v) : Vector{0, 0, 1};
     std::ranges::transform(flat, normal, [](double x) { return static_cast<float>(x); });
   }
   if (stand_ins > 0)
-    warnings_.add("NORMAL where the surface has none is a unit vector of no meaning: " +
-                      std::to_string(stand_ins) + (stand_ins == 1 ? " vertex" : " vertices"),
-                  "/meshes/" + std::to_string(slot_.mesh) + "/primitives/" + std::to_string(slot_.primitive));
+    warnings_.add("NORMAL where the surface has none is a unit vector of no meaning; such vertices",
+                  Place().at("meshes").at(slot_.mesh).at("primitives").at(slot_.primitive), stand_ins);
   return out;
 }
 
@@ -163,46 +190,60 @@ std::span<const Index> TrianglesWriter<Real>::sources_of(const AttributeSlot& at
 }
 
 template <class Real>
-Buffer<float> TrianglesWriter<Real>::attribute(const AttributeSlot& attribute) {
+Result<Buffer<float>> TrianglesWriter<Real>::attribute(const AttributeSlot& attribute) {
   RefinedPrimvar<Real>& primvar = mesh_.primvars[attribute.primvar];
   Buffer<Real>& values = primvar.limit_values.empty() ? primvar.values : primvar.limit_values;
-  Buffer<float> out = taken(values, primvar.element_size, attribute.components, sources_of(attribute));
-  if (semantic_of(attribute.name) == Semantic::color)
-    for (float& value : out) value = std::clamp(value, 0.0f, 1.0f);
+  auto out = taken(values, primvar.element_size, attribute.components, sources_of(attribute));
+  if (!out || semantic_of(attribute.name) != Semantic::color) return out;
+  for (std::span<float> rest(*out); !rest.empty(); rest = rest.subspan(std::min(rest.size(), kPiece))) {
+    if (auto stop = work_.spend(kPiece / 4)) return *std::move(stop);
+    for (float& value : rest.first(std::min(rest.size(), kPiece))) value = std::clamp(value, 0.0f, 1.0f);
+  }
   return out;
 }
 
 template <class Real>
 Result<void> TrianglesWriter<Real>::add(const std::string& name, Buffer<float> values, Index components,
                                         bool bounds) {
-  if (!all_finite(values)) return not_single(name);
-  attributes_.set(name, Json::number(Count{output_.add_floats(std::move(values), components, bounds)}));
+  const auto finite = are_finite(values, work_);
+  if (!finite) return finite.error();
+  if (!*finite) return not_single(name);
+  const auto accessor = output_.add_floats(std::move(values), components, bounds);
+  if (!accessor) return accessor.error();
+  attributes_.set(name, Json::number(Count{*accessor}));
   return {};
 }
 
 template <class Real>
 Result<void> TrianglesWriter<Real>::write() {
-  find_vertices();
+  if (auto stop = work_.spend(256)) return *std::move(stop);
+  if (auto found = find_vertices(); !found) return found;
   Json& primitive = output_.primitive(slot_.mesh, slot_.primitive);
   attributes_ = std::move(*primitive.find("attributes"));
   const bool empty = vertex_count_ == 0;
-  Buffer<float> points = empty ? Buffer<float>(3, 0.0f) : positions();
-  if (!all_finite(points)) return not_single("POSITION");
+  auto points = empty ? Result<Buffer<float>>(Buffer<float>(3, 0.0f)) : positions();
+  if (!points) return points.error();
+  const auto finite = are_finite(*points, work_);
+  if (!finite) return finite.error();
+  if (!*finite) return not_single("POSITION");
   if (indices_.empty()) indices_ = {0, 0, 0};
-  Buffer<float> unit;
-  if (slot_.normals) unit = empty ? Buffer<float>{0, 0, 1} : normals(points);
-  if (auto added = add("POSITION", std::move(points), 3, true); !added) return added;
+  Result<Buffer<float>> unit = Buffer<float>{0, 0, 1};
+  if (slot_.normals && !empty) unit = normals(*points);
+  if (!unit) return unit.error();
+  if (auto added = add("POSITION", *std::move(points), 3, true); !added) return added;
   if (slot_.normals)
-    if (auto added = add("NORMAL", std::move(unit), 3, false); !added) return added;
+    if (auto added = add("NORMAL", *std::move(unit), 3, false); !added) return added;
   for (const AttributeSlot& slot : slot_.attributes) {
     const bool split = mesh_.primvars[slot.primvar].interpolation == Interpolation::face_varying;
     if (split && render_ == nullptr && !empty) continue;  // add_render_meshes was not called
-    Buffer<float> values = empty ? Buffer<float>(slot.components, 0.0f) : attribute(slot);
-    if (auto added = add(slot.name, std::move(values), slot.components, false); !added) return added;
+    auto values = empty ? Result<Buffer<float>>(Buffer<float>(slot.components, 0.0f)) : attribute(slot);
+    if (!values) return values.error();
+    if (auto added = add(slot.name, *std::move(values), slot.components, false); !added) return added;
   }
-  const Index accessor = output_.add_indices(std::move(indices_), std::max<Index>(vertex_count_, 1));
+  const auto accessor = output_.add_indices(std::move(indices_), std::max<Index>(vertex_count_, 1));
+  if (!accessor) return accessor.error();
   primitive.set("attributes", std::move(attributes_));
-  primitive.set("indices", Json::number(Count{accessor}));
+  primitive.set("indices", Json::number(Count{*accessor}));
   return {};
 }
 
@@ -210,11 +251,11 @@ Result<void> TrianglesWriter<Real>::write() {
 
 template <class Real>
 Result<void> write_triangles(const TrianglesSlot& slot, RefinedMesh<Real>& mesh, Output& output,
-                             Warnings& warnings) {
-  return TrianglesWriter<Real>(slot, mesh, output, warnings).write();
+                             Warnings& warnings, Work& work) {
+  return TrianglesWriter<Real>(slot, mesh, output, warnings, work).write();
 }
 
-template Result<void> write_triangles(const TrianglesSlot&, RefinedMesh<float>&, Output&, Warnings&);
-template Result<void> write_triangles(const TrianglesSlot&, RefinedMesh<double>&, Output&, Warnings&);
+template Result<void> write_triangles(const TrianglesSlot&, RefinedMesh<float>&, Output&, Warnings&, Work&);
+template Result<void> write_triangles(const TrianglesSlot&, RefinedMesh<double>&, Output&, Warnings&, Work&);
 
 }  // namespace subdivd::proto::gltf

@@ -10,6 +10,6 @@ namespace subdivd::proto::gltf {
 // triangle without area: glTF has no empty primitives.
 template <class Real>
 Result<void> write_triangles(const TrianglesSlot& slot, RefinedMesh<Real>& mesh, Output& output,
-                             Warnings& warnings);
+                             Warnings& warnings, Work& work);
 
 }  // namespace subdivd::proto::gltf

@@ -248,7 +248,9 @@ void add_fresh(Folder& folder) {
     for (const Format format : {Format::glb, Format::gltf}) {
       proto::RefineRequest copy = request;
       copy.options.format = format;
-      if (!split_late) (void)proto::gltf::add_render_meshes(copy);
+      if (!split_late)
+        if (auto added = proto::gltf::add_render_meshes(copy); !added)
+          throw std::runtime_error(added.error().message);
       auto outcome = answer(std::move(copy));
       if (!outcome) throw std::runtime_error(outcome.error().message);
       folder.write(

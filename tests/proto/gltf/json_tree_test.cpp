@@ -2,13 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <random>
+
 #include "tests/proto/gltf/pipeline.h"
+#include "tests/proto/gltf/unlimited.h"
 
 namespace subdivd::proto::gltf {
 namespace {
 
+Result<Json> parse(std::string_view text, const JsonLimits& limits) {
+  test::Unlimited unlimited;
+  return parse_json(text, limits, unlimited.work);
+}
+
 Error error_of(const std::string& text, JsonLimits limits = {}) {
-  const auto parsed = parse_json(text, limits);
+  const auto parsed = parse(text, limits);
   return parsed ? Error{ErrorCode::internal, "accepted", {}, 0, 0} : parsed.error();
 }
 
@@ -16,13 +25,13 @@ TEST(JsonTree, prints_what_it_read) {
   const std::string text =
       R"({"z":1,"a":[true,false,null,"q\"\\"],"n":123456789012345678901234567890,"m":-9223372036854775808,)"
       R"("f":0.10,"e":1E+2,"d":1.0,"empty":{},"none":[],"u":18446744073709551615})";
-  const auto parsed = parse_json(text, {});
+  const auto parsed = parse(text, {});
   ASSERT_TRUE(parsed.ok());
   EXPECT_EQ(parsed->text(), text);
 }
 
 TEST(JsonTree, escapes_control_characters) {
-  const auto parsed = parse_json(R"(["\u0001\n"])", {});
+  const auto parsed = parse(R"(["\u0001\n"])", {});
   ASSERT_TRUE(parsed.ok());
   EXPECT_EQ(parsed->text(), R"(["\u0001\u000a"])");
 }
@@ -45,7 +54,7 @@ TEST(JsonTree, refuses_deep_nesting) {
 
 TEST(JsonTree, accepts_nesting_up_to_the_limit) {
   const std::string text = std::string(64, '[') + std::string(64, ']');
-  EXPECT_TRUE(parse_json(text, {}).ok());
+  EXPECT_TRUE(parse(text, {}).ok());
 }
 
 TEST(JsonTree, refuses_more_values_than_allowed) {
@@ -62,11 +71,11 @@ TEST(JsonTree, refuses_what_is_no_json) {
 
 TEST(JsonTree, refuses_what_hides_behind_a_nul) {
   EXPECT_EQ(error_of(std::string("{}\0{}", 5)).code, ErrorCode::malformed);
-  EXPECT_TRUE(parse_json(std::string_view("{}\0\0", 4), {}).ok());
+  EXPECT_TRUE(parse(std::string_view("{}\0\0", 4), {}).ok());
 }
 
 TEST(JsonTree, knows_whole_numbers) {
-  const auto parsed = parse_json("[0,9007199254740992,9007199254740993,-1,1.0,1e2,true]", {});
+  const auto parsed = parse("[0,9007199254740992,9007199254740993,-1,1.0,1e2,true]", {});
   ASSERT_TRUE(parsed.ok());
   const Json::Array& numbers = *parsed->array();
   EXPECT_EQ(numbers[0].integer(), Count{0});
@@ -77,7 +86,55 @@ TEST(JsonTree, knows_whole_numbers) {
 TEST(JsonTree, takes_long_objects_in_reasonable_time) {
   std::string text = "{";
   for (int i = 0; i < 300000; ++i) text += (i == 0 ? "\"k" : ",\"k") + std::to_string(i) + "\":0";
-  EXPECT_TRUE(parse_json(text + "}", {}).ok());
+  EXPECT_TRUE(parse(text + "}", {}).ok());
+}
+
+TEST(JsonTree, reads_escapes_and_surrogate_pairs) {
+  const auto parsed = parse(R"(["\ud83d\ude00\u00e9\u20ac\/\b\f\n\r\t\"\\"])", {});
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(*(*parsed->array())[0].string(), "\U0001F600\u00e9\u20ac/\b\f\n\r\t\"\\");
+}
+
+// What another strict parser says of the same text.
+TEST(JsonTree, agrees_with_nlohmann_on_mutated_documents) {
+  const std::string seed =
+      R"({"a":[1,-2.5e3,true,null,"x\u00e9\ud83d\ude00\n"],"b":{"c":{},"d":[]},"é":"€","n":0.1E-2, "t" : [ [ ] , { } ] })";
+  std::mt19937 random(7);
+  const std::string alphabet = "{}[]\",:\\u0123456789eE+-.tfn \n\x01\x7f\xc3\xe9\xf0\xed";
+  int accepted = 0;
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = seed;
+    for (unsigned changes = 1 + static_cast<unsigned>(random() % 3); changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      const char c = alphabet[random() % alphabet.size()];
+      switch (random() % 3) {
+        case 0:
+          text[at] = c;
+          break;
+        case 1:
+          text.insert(at, 1, c);
+          break;
+        default:
+          text.erase(at, 1);
+      }
+    }
+    const auto parsed = parse(text, {});
+    if (!parsed && parsed.error().code == ErrorCode::duplicate_field) continue;
+    const auto expected = nlohmann::ordered_json::parse(text, nullptr, false);
+    ASSERT_EQ(parsed.ok(), !expected.is_discarded()) << text;
+    if (!parsed) continue;
+    ++accepted;
+    ASSERT_EQ(nlohmann::ordered_json::parse(parsed->text()), expected) << text;
+  }
+  EXPECT_GT(accepted, 5000);
+}
+
+TEST(JsonTree, copies_and_measures_what_it_prints) {
+  const std::string text = R"({"z":1,"a":[true,"a string that is longer than fifteen"],"o":{"p":{}}})";
+  test::Unlimited unlimited;
+  const auto parsed = parse(text, {});
+  EXPECT_EQ(parsed->copy(unlimited.work)->text(), text);
+  EXPECT_EQ(*parsed->text_size(unlimited.work), text.size());
 }
 
 }  // namespace

@@ -50,7 +50,9 @@ Result<Outcome> answer(RefineRequest request) {
     refined.curves.push_back(*std::move(made));
   }
   Outcome outcome;
-  outcome.predicted = gltf::predicted_bytes(request, sizes);
+  const auto predicted = gltf::predicted_bytes(request, sizes);
+  if (!predicted) return predicted.error();
+  outcome.predicted = *predicted;
   auto payload = gltf::write(request, std::move(refined), request.options.format.value_or(Format::glb),
                              R"({"options":{"level":2}})");
   if (!payload) return payload.error();

@@ -3,6 +3,7 @@
 #include "proto/gltf/read_lines.h"
 #include "proto/gltf/read_triangles.h"
 #include "tests/proto/gltf/pipeline.h"
+#include "tests/proto/gltf/unlimited.h"
 #include "tests/support/gltf_builder.h"
 
 namespace subdivd::test {
@@ -158,6 +159,20 @@ TEST(ReadTriangles, leaves_out_unused_vertices_and_says_so) {
   EXPECT_THAT(request.warnings, ElementsAre(HasSubstr("left out: 1 (/meshes/0/primitives/0)")));
 }
 
+TEST(ReadTriangles, reads_of_a_long_accessor_what_is_used) {
+  GltfBuilder builder;
+  const int positions = builder.accessor(-1, 5126, 4000000000u, "VEC3");
+  const int at = builder.view<std::uint32_t>({7, 8, 3000000000u}),
+            with = builder.view<float>({1, 0, 0, 0, 1, 0, 5, 6, 7});
+  builder.document()["accessors"][0]["sparse"] = {{"count", 3},
+                                                  {"indices", {{"bufferView", at}, {"componentType", 5125}}},
+                                                  {"values", {{"bufferView", with}}}};
+  builder.mesh({{"POSITION", positions}}, builder.values<std::uint32_t>({3000000000u, 7, 9}, 1));
+  const RefineRequest request = must_read(builder.glb());
+  EXPECT_THAT(request.meshes.at(0).points, ElementsAre(1, 0, 0, 0, 0, 0, 5, 6, 7));
+  EXPECT_THAT(request.meshes.at(0).face_vertex_indices, ElementsAre(2, 0, 1));
+}
+
 TEST(ReadTriangles, asks_for_normals_when_the_asset_had_them) {
   EXPECT_TRUE(must_read(seamed_octahedron().glb()).options.normals);
   GltfBuilder builder;
@@ -221,14 +236,17 @@ TEST(ReadLines, closes_chains_that_come_back) {
 }
 
 TEST(ReadLines, ends_chains_where_three_segments_meet) {
-  const auto chains = proto::gltf::chain_segments({0, 1, 0, 2, 0, 3, 3, 4}, 5);
-  EXPECT_THAT(chains.open, SizeIs(3));
-  EXPECT_THAT(chains.closed, IsEmpty());
+  Unlimited unlimited;
+  const auto chains = proto::gltf::chain_segments({0, 1, 0, 2, 0, 3, 3, 4}, 5, unlimited.work);
+  EXPECT_THAT(chains->open.lengths, SizeIs(3));
+  EXPECT_THAT(chains->closed.lengths, IsEmpty());
 }
 
 TEST(ReadLines, does_not_close_two_segments_between_the_same_points) {
-  const auto chains = proto::gltf::chain_segments({0, 1, 1, 0}, 2);
-  EXPECT_THAT(chains.open, ElementsAre(ElementsAre(0, 1, 0)));
+  Unlimited unlimited;
+  const auto chains = proto::gltf::chain_segments({0, 1, 1, 0}, 2, unlimited.work);
+  EXPECT_THAT(chains->open.vertices, ElementsAre(0, 1, 0));
+  EXPECT_THAT(chains->open.lengths, ElementsAre(3));
 }
 
 TEST(ReadLines, refines_colours_along) {

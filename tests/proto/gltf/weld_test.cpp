@@ -8,14 +8,32 @@
 #include <cmath>
 #include <random>
 
+#include "tests/proto/gltf/unlimited.h"
+
 namespace subdivd::test {
 namespace {
 
 using proto::gltf::hash_of_tuple;
-using proto::gltf::weld_by_sorting;
-using proto::gltf::weld_tuples;
 using proto::gltf::Welded;
 using testing::ElementsAre;
+
+template <class Number>
+Welded weld_tuples(const std::vector<Number>& values, Count width, const std::vector<Index>& groups = {}) {
+  Unlimited unlimited;
+  Welded weld;
+  if constexpr (std::is_same_v<Number, Index>)
+    weld = *proto::gltf::weld_tuples(values, width, unlimited.work);
+  else
+    weld = *proto::gltf::weld_tuples(values, width, groups, unlimited.work);
+  return {std::move(weld.id), std::move(weld.first), {}};
+}
+
+Welded weld_by_sorting(const std::vector<double>& values, Count width,
+                       const std::vector<Index>& groups = {}) {
+  Unlimited unlimited;
+  Welded weld = *proto::gltf::weld_by_sorting(values, width, groups, unlimited.work);
+  return {std::move(weld.id), std::move(weld.first), {}};
+}
 
 void expect_same(const Welded& a, const Welded& b) {
   EXPECT_EQ(a.id, b.id);

@@ -390,7 +390,7 @@ proto::RefineRequest json_request() {
 
 TEST(Fresh, makes_a_document_for_a_json_request) {
   proto::RefineRequest request = json_request();
-  ASSERT_TRUE(proto::gltf::add_render_meshes(request));
+  ASSERT_TRUE(proto::gltf::add_render_meshes(request).ok());
   const auto outcome = answer(std::move(request));
   ASSERT_TRUE(outcome.ok());
   const ParsedGlb glb = parse_glb(outcome->bytes);
@@ -407,14 +407,14 @@ TEST(Fresh, makes_a_document_for_a_json_request) {
 TEST(Fresh, splits_vertices_where_face_varying_values_differ) {
   proto::RefineRequest request = json_request();
   request.options.level = 0;
-  ASSERT_TRUE(proto::gltf::add_render_meshes(request));
+  ASSERT_TRUE(proto::gltf::add_render_meshes(request).ok());
   const ParsedGlb glb = parse_glb(answer(std::move(request))->bytes);
   EXPECT_EQ(read_accessor<float>(glb, primitive_of(glb)["attributes"]["POSITION"], 3).size(), 3 * 5u);
 }
 
 TEST(Fresh, splits_vertices_at_seams_beforehand) {
   proto::RefineRequest prepared = json_request();
-  ASSERT_TRUE(proto::gltf::add_render_meshes(prepared));
+  ASSERT_TRUE(proto::gltf::add_render_meshes(prepared).ok());
   ASSERT_FALSE(prepared.meshes[0].render_meshes.empty());
   const Outcome outcome = *answer(std::move(prepared));
   EXPECT_GE(outcome.predicted, outcome.bytes.size());
