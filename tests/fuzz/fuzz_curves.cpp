@@ -41,6 +41,11 @@ bool found(const Result<Found>& result) {
   return false;
 }
 
+// A refusal late in the work is an answer, too.
+void answer_with(const Result<proto::Payload>& payload) {
+  if (found(payload)) require_answer(*payload);
+}
+
 void answer(const proto::CurveRequest& request, const Budget& budget) {
   switch (request.task.kind) {
     case Kind::refine:
@@ -52,15 +57,15 @@ void answer(const proto::CurveRequest& request, const Budget& budget) {
     case Kind::evaluate:
       if (request.task.on_surfaces) {
         if (const auto samples = server::compute_surface_samples(request, budget); found(samples))
-          require_answer(proto::*encode_samples(request, *samples));
+          answer_with(proto::encode_samples(request, *samples, budget));
         return;
       }
       if (const auto samples = server::compute_samples(request, budget); found(samples))
-        require_answer(proto::*encode_samples(request, *samples));
+        answer_with(proto::encode_samples(request, *samples, budget));
       return;
     case Kind::measure:
       if (const auto measures = server::compute_measures(request, budget); found(measures))
-        require_answer(proto::*encode_measures(request, *measures));
+        answer_with(proto::encode_measures(request, *measures, budget));
       return;
     default:
       if (auto edited = server::compute_edited(request, budget); found(edited))

@@ -5,9 +5,15 @@
 
 #include <atomic>
 #include <chrono>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "proto/curve_task.h"
+#include "proto/json/cursor.h"
+#include "proto/json/survey.h"
+#include "proto/json/text_writer.h"
 #include "tests/proto/support.h"
 
 namespace subdivd::proto::test {
@@ -56,6 +62,38 @@ TEST(json_budget, reading_stops_at_its_deadline) {
     ASSERT_FALSE(task.ok()) << shape.name;
     EXPECT_EQ(task.error().code, ErrorCode::deadline_exceeded) << shape.name << task.error().message;
   }
+}
+
+// Each part for itself: whichever comes first would hide that the others do not stop.
+TEST(json_budget, looking_over_a_body_stops_at_its_deadline) {
+  for (const Shape& shape : shapes()) {
+    const std::string body = shape.begin + repeated(shape.piece, kLarge) + shape.end;
+    Budget budget;
+    budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(5);
+    EXPECT_FALSE(json::survey(body, budget).ok()) << shape.name;
+  }
+}
+
+TEST(json_budget, the_walk_stops_wherever_it_is) {
+  for (const Shape& shape : shapes()) {
+    const std::string body = shape.begin + repeated(shape.piece, std::size_t{2} << 20) + shape.end;
+    if (std::string_view(shape.name) == "brackets") continue;  // too deep before it is too late
+    Budget budget;
+    json::Cursor cursor(body, budget);
+    budget.deadline = Budget::Clock::now();
+    EXPECT_FALSE(cursor.skip(64)) << shape.name;
+    ASSERT_TRUE(cursor.failed());
+    EXPECT_EQ(cursor.error()->code, ErrorCode::deadline_exceeded) << shape.name;
+  }
+}
+
+TEST(json_budget, the_text_of_an_answer_stops_wherever_it_is) {
+  Budget budget;
+  json::TextWriter writer(budget);
+  budget.deadline = Budget::Clock::now();
+  writer.tuples(std::span<const double>(std::vector<double>(100'000, 1.5)), 1, ArrayForm::flat);
+  ASSERT_TRUE(writer.stopped().has_value());
+  EXPECT_EQ(writer.stopped()->code, ErrorCode::deadline_exceeded);
 }
 
 TEST(json_budget, nothing_is_read_for_a_caller_who_went_away) {
