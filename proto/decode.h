@@ -30,7 +30,8 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
 // text. Refuses what exceeds the limits (too_large with predicted and allowed).
 struct Prediction {
   Count answer_bytes = 0;   // of the body that will be sent (upper bound)
-  Count working_bytes = 0;  // of the arrays of the core
+  Count working_bytes = 0;  // of the arrays of the core, and what it needs beside them
+  Count taken_bytes = 0;    // of both together: taken from the budget already, for predicting
 };
 Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
                                   const Budget& budget = {});

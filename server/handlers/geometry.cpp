@@ -1,5 +1,6 @@
 #include "server/handlers/geometry.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -66,20 +67,16 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
   return problem_response(Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0});
 }
 
-// Sets aside what refining will take, with the answer.
-Result<void> take_for_refining(const proto::RefineRequest& request, const proto::Limits& limits,
-                               const Budget& budget) {
+// Sets aside what a request will take: to refine and to encode the answer, and to verify, which refines both
+// here and in OpenSubdiv.
+Result<void> take_predicted(const proto::RefineRequest& request, bool answers, bool verifies,
+                            const proto::Limits& limits, const Budget& budget) {
   const auto predicted = proto::predict_refine(request, limits, budget);
   if (!predicted) return predicted.error();
-  return budget.take_memory(predicted->answer_bytes + predicted->working_bytes);
-}
-
-// Sets aside what verifying will take: it refines both here and in OpenSubdiv.
-Result<void> take_for_verifying(const proto::RefineRequest& request, const proto::Limits& limits,
-                                const Budget& budget) {
-  const auto predicted = proto::predict_refine(request, limits, budget);
-  if (!predicted) return predicted.error();
-  return budget.take_memory(predicted->working_bytes + oracle_bytes(request));
+  Count bytes = 0;
+  if (answers) bytes += predicted->answer_bytes + predicted->working_bytes;
+  if (verifies) bytes += predicted->working_bytes + oracle_bytes(request);
+  return budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes));
 }
 
 // ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
@@ -173,9 +170,8 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
   if (!decoded) return std::move(decoded).error();
   if (!choose_format(request, *decoded))
     return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
-  if (auto taken = take_for_refining(*decoded, limits_, budget); !taken) return std::move(taken).error();
-  if (decoded->options.verify)
-    if (auto taken = take_for_verifying(*decoded, limits_, budget); !taken) return std::move(taken).error();
+  if (auto taken = take_predicted(*decoded, true, decoded->options.verify, limits_, budget); !taken)
+    return std::move(taken).error();
   phases.end("read");
   auto answer = compute_refinement(*decoded, budget, phases);
   if (!answer) return std::move(answer).error();
@@ -195,7 +191,8 @@ Response GeometryHandlers::verify(Request& request) {
     Phases phases;
     const auto decoded = decode_any(request, limits_, budget);
     if (!decoded) return decoded.error();
-    if (auto taken = take_for_verifying(*decoded, limits_, budget); !taken) return std::move(taken).error();
+    if (auto taken = take_predicted(*decoded, false, true, limits_, budget); !taken)
+      return std::move(taken).error();
     phases.end("read");
     const auto report = compute_report(*decoded, budget);
     if (!report) return report.error();
