@@ -8,6 +8,8 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "server/transport/census.h"
 #include "server/transport/client_socket.h"

@@ -1,7 +1,8 @@
 """Sends two requests with a pause between them, once for each pause that is given, all at the same time.
 
-idle_client.py HOST PORT PATH BODY PAUSE... prints a JSON list of {pause, waited, kept, error}: the seconds that really
-passed, whether the second request went over the first one's connection, and why it failed (null: it did not).
+idle_client.py HOST PORT PATH BODY PAUSE... prints a JSON list of {pause, waited, kept, error}: the seconds that passed
+from before the first request to the second, so never less than the server was left waiting; whether the second went
+over the first one's connection; why one of them failed (null: none did).
 """
 import http.client
 import json
@@ -31,11 +32,11 @@ def run(pause):
     connection = http.client.HTTPConnection(host, port, timeout=30)
     result = {"pause": pause, "waited": 0, "kept": False, "error": None}
     try:
-        ask(connection)
         start = time.monotonic()
+        ask(connection)
         time.sleep(pause)
-        result["waited"] = time.monotonic() - start
         result["kept"] = not is_closed(connection.sock)
+        result["waited"] = time.monotonic() - start
         if not result["kept"]:
             connection.close()
         ask(connection)

@@ -130,7 +130,9 @@ TEST(Hostile, refuses_bodies_that_would_fill_the_memory_for_all) {
 TEST(Hostile, refuses_a_head_that_would_fill_the_memory_for_all) {
   const RunningTransport server(quick_options(), 6'000);
   EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(20'000, 'x') + "\r\n")).status, 503);
-  EXPECT_EQ(ask(server.port, get("/a", "X: " + std::string(2'000, 'x') + "\r\n")).status, 200);
+  const std::string smaller = get("/a", "X: " + std::string(2'000, 'x') + "\r\n");
+  EXPECT_TRUE(
+      eventually([&] { return ask(server.port, smaller).status == 200; }));  // as soon as it is given back
 }
 TEST(Hostile, reserves_a_body_whole_before_it_comes) {
   TransportOptions options = quick_options();
