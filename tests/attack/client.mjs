@@ -21,8 +21,8 @@ export async function connected(port) {
   return socket;
 }
 
-// The next answer on a socket: { status, headers, body, size, ms }; status 0 when there is none within `patience`. Of large
-// bodies the beginning is kept.
+// The next answer on a socket: { status, headers, body, size, ms }; status 0 when there is none within `patience`. Interim
+// answers (1xx) are skipped; of large bodies the beginning is kept.
 export function answerOn(socket, patience = 20_000, kept = 65536) {
   const start = performance.now();
   return new Promise((resolve) => {
@@ -40,7 +40,9 @@ export function answerOn(socket, patience = 20_000, kept = 65536) {
         if (answer.body.length < kept) answer.body += piece.toString('latin1', 0, kept);
       } else {
         text = Buffer.concat([text, piece]);
-        const end = text.indexOf('\r\n\r\n');
+        const isInterim = () => /^HTTP\/1\.1 1/.test(text.toString('latin1', 0, 10));
+        let end = text.indexOf('\r\n\r\n');
+        for (; end >= 0 && isInterim(); end = text.indexOf('\r\n\r\n')) text = text.subarray(end + 4);
         if (end < 0) return;
         const [first, ...lines] = text.toString('latin1', 0, end).split('\r\n');
         const headers = Object.fromEntries(lines.map((line) => [line.split(': ')[0].toLowerCase(), line.slice(line.indexOf(': ') + 2)]));

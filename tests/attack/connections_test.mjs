@@ -141,7 +141,7 @@ for (const [what, bytes] of [
     assert.ok(ms <= kAtOnce, `answered after ${Math.round(ms)} ms`);
   });
 
-for (const host of ['a b', '<script>', 'a/b', 'a?b', 'a@b', 'a,b', 'a:b', '[::1', '"'])
+for (const host of ['a b', '<script>', 'a/b', 'a?b', 'a@b', 'a:b', '[::1', '"'])
   test(`Host: ${host} is refused`, async () => {
     assert.equal((await get(daemon.port, '/livez', { headers: { Host: host } })).status, 400);
   });

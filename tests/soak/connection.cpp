@@ -128,7 +128,7 @@ Answer Connection::receive(ReadingPace pace, milliseconds patience) {
     answer.digest = std::hash<std::string_view>{}(body);
     answer.beginning = body.substr(0, kBeginning);
     buffer_.erase(0, whole);
-    if (answer.status != 100) return answer;
+    if (answer.status / 100 != 1) return answer;
   }
 }
 
