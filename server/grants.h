@@ -21,11 +21,10 @@
 
 namespace subdivd::server {
 
-enum class Lane { small, large };
-
 class Grants {
  public:
   using Clock = std::chrono::steady_clock;
+  enum class Lane { small, large };
 
   // How much there is to share.
   struct Shares {

@@ -141,7 +141,7 @@ Budget GeometryHandlers::budget_for(const Request& request) const {
 
 Response GeometryHandlers::granted(Request& request, const Attempt& attempt) {
   Budget budget = budget_for(request);
-  Grants::Wish wish{request.body.size() <= kSmallBody ? Lane::small : Lane::large, 0};
+  Grants::Wish wish{request.body.size() <= kSmallBody ? Grants::Lane::small : Grants::Lane::large, 0};
   for (;;) {
     auto entered = grants_.enter(wish, budget.deadline, request.cancelled);
     if (const auto* reason = std::get_if<Grants::Denied>(&entered))

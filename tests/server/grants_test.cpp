@@ -10,6 +10,7 @@ namespace {
 
 using Clock = Grants::Clock;
 using Denied = Grants::Denied;
+using Lane = Grants::Lane;
 using Outcome = std::variant<std::shared_ptr<Grants::Grant>, Denied>;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
