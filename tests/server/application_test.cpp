@@ -382,13 +382,20 @@ TEST(Application, answers_what_is_asked_about_surfaces) {
 }
 // OpenSubdiv takes hundreds of bytes for a point of a curve or surface: reserved before it begins.
 TEST(Application, reserves_what_verifying_takes) {
-  Config config = quick_config();
-  config.max_memory_bytes = 20'000'000;
-  const RunningApplication server(config);
+  struct Case {
+    std::uint64_t enough_to_refine;
+    const char* body;
+  };
   for (
-      const char* body :
-      {R"({"type":"bsplineSurface","uVertexCount":2,"points":[[0,0,0],[1,0,0],[0,1,0],[1,1,1]]})",
-       R"({"type":"cubic","points":[[0],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1]]})"}) {
+      const auto& [memory, body] :
+      {Case{32'000'000,
+            R"({"type":"bsplineSurface","uVertexCount":2,"points":[[0,0,0],[1,0,0],[0,1,0],[1,1,1]]})"},
+       Case{
+           20'000'000,
+           R"({"type":"cubic","points":[[0],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1],[2],[1]]})"}}) {
+    Config config = quick_config();
+    config.max_memory_bytes = memory;
+    const RunningApplication server(config);
     const auto asked = [&](const char* path) {
       return ask(server.port, post(path, body, "Content-Type: application/json\r\n"));
     };
