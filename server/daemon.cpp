@@ -89,7 +89,7 @@ std::string state_line(const Application& application, const Quota& bodies, cons
 
 Count used_bytes(const Application& application, const Quota& bodies) {
   const Grants::State work = application.grants().state();
-  return kOwn + (work.bytes - work.free_bytes) + (bodies.total() - bodies.free());
+  return (work.bytes - work.free_bytes) + (bodies.total() - bodies.free());
 }
 
 // Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
@@ -140,7 +140,7 @@ int run(const Config& config) {
   }
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
   const Housekeeper housekeeper([&] { return used_bytes(application, bodies); },
-                                std::max(config.max_memory_bytes / 32, kLeastSlack));
+                                {kOwn, std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
   wait_for_the_end(signals, application, bodies, transport);
   const bool stopped = drain(config, application, transport);
   // A reader of the log that has stalled keeps the writing thread for ever: leave without it.

@@ -32,7 +32,7 @@ std::uint64_t resident_bytes() {
   return read == 2 ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
-Housekeeper::Housekeeper(std::function<std::uint64_t()> used, std::uint64_t slack)
+Housekeeper::Housekeeper(std::function<std::uint64_t()> used, const Slack& slack)
     : used_(std::move(used)), slack_(slack), thread_([this] { run(); }) {}
 
 Housekeeper::~Housekeeper() {
@@ -45,18 +45,20 @@ Housekeeper::~Housekeeper() {
 }
 
 void Housekeeper::run() {
+  const auto unused = [this](std::uint64_t used) {
+    const std::uint64_t resident = resident_bytes();
+    return resident - std::min(resident, slack_.own + used);
+  };
   // What stayed resident after the last trim: torn pages that no trim frees. Trimming again before more has
   // come would cost time and gain nothing.
   std::uint64_t stuck = 0;
   std::unique_lock lock(mutex_);
   while (!ended_changed_.wait_for(lock, kInterval, [this] { return ended_; })) {
-    const std::uint64_t resident = resident_bytes(), used = used_();
-    const std::uint64_t unused = resident - std::min(resident, used);
-    stuck = std::min(stuck, unused);
-    if (unused < stuck + slack_) continue;
+    const std::uint64_t used = used_(), now = unused(used);
+    stuck = std::min(stuck, now);
+    if (now <= stuck + (used == 0 ? slack_.idle : slack_.busy)) continue;
     ::malloc_trim(0);
-    const std::uint64_t after = resident_bytes();
-    stuck = after - std::min(after, used_());
+    stuck = unused(used_());
   }
 }
 

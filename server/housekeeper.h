@@ -13,9 +13,15 @@ namespace subdivd::server {
 
 class Housekeeper {
  public:
-  // Twice a second: trims when more than `slack` bytes are resident beyond what `used` tells. `used` is
-  // called from a thread of its own.
-  Housekeeper(std::function<std::uint64_t()> used, std::uint64_t slack);
+  struct Slack {
+    std::uint64_t own = 0;   // what the process takes when it does nothing
+    std::uint64_t busy = 0;  // that may stay freed but resident while requests come
+    std::uint64_t idle = 0;  // and when none is being answered
+  };
+
+  // Twice a second: trims when more is resident than the process's own, what `used` says that requests use,
+  // and the slack. `used` is called from a thread of its own.
+  Housekeeper(std::function<std::uint64_t()> used, const Slack& slack);
   ~Housekeeper();
   Housekeeper(const Housekeeper&) = delete;
   Housekeeper& operator=(const Housekeeper&) = delete;
@@ -24,7 +30,7 @@ class Housekeeper {
   void run();
 
   const std::function<std::uint64_t()> used_;
-  const std::uint64_t slack_;
+  const Slack slack_;
   std::mutex mutex_;
   std::condition_variable ended_changed_;
   bool ended_ = false;
