@@ -171,7 +171,7 @@ test('a client that has ended its half is answered', async () => {
 
 // --- signals --------------------------------------------------------------------------------------------------
 
-for (const signal of ['SIGHUP', 'SIGUSR1', 'SIGPIPE'])
+for (const signal of ['SIGHUP', 'SIGUSR1', 'SIGUSR2', 'SIGPIPE'])
   test(`${signal} does not kill`, async () => {
     const signalled = await startDaemon();
     try {

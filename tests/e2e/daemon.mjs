@@ -17,7 +17,9 @@ export async function startDaemon(flags = [], { log = 'inherit', inShell } = {})
   if (inShell) words.unshift('sh', '-c', `${inShell}; exec "$@"`, 'sh');
   const child = spawn(words[0], words.slice(1), { stdio: ['ignore', 'pipe', log] });
   const ended = once(child, 'exit').then(([code, signal]) => code ?? signal);
-  process.once('exit', () => child.kill('SIGKILL'));  // a failed test must not leave a daemon behind
+  const kill = () => child.kill('SIGKILL');
+  process.once('exit', kill);  // a failed test must not leave a daemon behind
+  child.once('exit', () => process.off('exit', kill));
   const url = await Promise.race([urlPrintedBy(child), ended.then((code) => { throw new Error(`the daemon ended with ${code}`); })]);
   await untilReady(url);
   return {

@@ -48,8 +48,10 @@ std::uint64_t status_number(const std::string& status, const std::string& name, 
   return at == std::string::npos ? 0 : std::strtoull(status.c_str() + at + name.size() + 2, nullptr, base);
 }
 
-std::string read_status(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
+std::string process_folder(pid_t pid) { return "/proc/" + std::to_string(pid); }
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -134,10 +136,14 @@ void Daemon::take_line(std::string line) {
   complaints_.push_back(std::move(line));
 }
 
+// A thread that waits for a signal shows it as not blocked while it waits; the others do block it.
 bool Daemon::handles_sigusr1() const {
-  const std::string status = read_status(pid_);
-  const std::uint64_t handled = status_number(status, "SigBlk", 16) | status_number(status, "SigIgn", 16) |
-                                status_number(status, "SigCgt", 16);
+  std::uint64_t handled = 0;
+  std::error_code fault;
+  for (const auto& task : std::filesystem::directory_iterator(process_folder(pid_) + "/task", fault)) {
+    const std::string status = text_of(task.path() / "status");
+    for (const char* mask : {"SigBlk", "SigIgn", "SigCgt"}) handled |= status_number(status, mask, 16);
+  }
   return (handled >> (SIGUSR1 - 1) & 1) != 0;
 }
 
@@ -157,12 +163,12 @@ std::vector<std::string> Daemon::complaints() {
 
 Footprint Daemon::footprint() const {
   Footprint footprint;
-  const std::string status = read_status(pid_);
+  const std::string status = text_of(process_folder(pid_) + "/status");
   footprint.resident = status_number(status, "VmRSS") * 1024;
   footprint.peak_resident = status_number(status, "VmHWM") * 1024;
   footprint.threads = status_number(status, "Threads");
   std::error_code fault;
-  for (auto entry = std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/fd", fault);
+  for (auto entry = std::filesystem::directory_iterator(process_folder(pid_) + "/fd", fault);
        !fault && entry != std::filesystem::directory_iterator(); entry.increment(fault))
     ++footprint.descriptors;
   return footprint;

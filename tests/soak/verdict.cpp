@@ -16,6 +16,7 @@ constexpr std::size_t kRows = 20;  // of the printed course
 // Resident memory under load swings by the few large requests that happen to run at once; over a third of a
 // minute's samples the medians differ by up to a tenth and some MiB. A leak of 100 bytes a request is 50 MB
 // in half an hour.
+constexpr std::ptrdiff_t kFewestSamples = 10;  // of a third; in less time nothing has become warm
 constexpr double kSwing = 0.10;
 constexpr std::uint64_t kSwingBytes = 16 * kMiB;
 // What an allocator keeps of many threads' pieces once they are all free.
@@ -104,7 +105,7 @@ void judge_kernel(Verdict& verdict, const Rest& start, const Rest& end) {
 void judge_memory(Verdict& verdict, const std::vector<Sample>& samples, const Rest& start, const Rest& end) {
   const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 6);
   const std::ptrdiff_t third = (samples.end() - warm) / 3;
-  if (third > 0) {
+  if (third >= kFewestSamples) {
     const std::uint64_t first = median_resident(warm, warm + third);
     const std::uint64_t last = median_resident(samples.end() - third, samples.end());
     const auto allowed = static_cast<std::uint64_t>(static_cast<double>(first) * (1 + kSwing)) + kSwingBytes;
