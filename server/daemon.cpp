@@ -87,9 +87,9 @@ std::string state_line(const Application& application, const Quota& bodies, cons
   return line;
 }
 
-Count used_bytes(const Application& application, const Quota& bodies) {
+Housekeeper::Use use_of(const Application& application, const Quota& bodies) {
   const Grants::State work = application.grants().state();
-  return (work.bytes - work.free_bytes) + (bodies.total() - bodies.free());
+  return {(work.bytes - work.free_bytes) + (bodies.total() - bodies.free()), work.granted};
 }
 
 // Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
@@ -139,7 +139,7 @@ int run(const Config& config) {
     return 1;
   }
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
-  const Housekeeper housekeeper([&] { return used_bytes(application, bodies); },
+  const Housekeeper housekeeper([&] { return use_of(application, bodies); },
                                 {kOwn, std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
   wait_for_the_end(signals, application, bodies, transport);
   const bool stopped = drain(config, application, transport);

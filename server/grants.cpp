@@ -66,6 +66,7 @@ std::variant<std::shared_ptr<Grants::Grant>, Grants::Denied> Grants::enter(
   std::shared_ptr<Grant> grant(new Grant(*this, lane, wish.bytes, Clock::now()));
   pool.running.push_back(grant.get());
   pool.free_bytes -= wish.bytes;
+  ++granted_;
   return grant;
 }
 
@@ -94,19 +95,22 @@ Result<void> Grants::Grant::take(Count bytes) {
   const std::lock_guard lock(grants_.mutex_);
   Pool& pool = grants_.pool(lane_);
   const Count most = grants_.large_.bytes;
-  if (bytes > most - std::min(most, bytes_))
+  if (bytes > most - std::min(most, asked_))
     return Error{ErrorCode::too_large,
-                 "the request would take " + std::to_string(bytes_ + bytes) + " bytes of memory; " +
+                 "the request would take " + std::to_string(asked_ + bytes) + " bytes of memory; " +
                      std::to_string(most) + " are set aside: choose a lower level or a smaller input",
                  {},
-                 bytes_ + bytes,
+                 asked_ + bytes,
                  most};
-  wanted_ = std::max(wanted_, bytes_ + bytes);
-  const bool allowed = lane_ == Lane::large || bytes_ + bytes <= grants_.most_small_bytes_;
-  if (!allowed || bytes > pool.free_bytes)
+  const Count asked = asked_ + bytes;
+  wanted_ = asked;
+  const Count missing = asked - std::min(asked, bytes_);
+  const bool allowed = lane_ == Lane::large || asked <= grants_.most_small_bytes_;
+  if (!allowed || missing > pool.free_bytes)
     return Error{ErrorCode::overloaded, "other requests take the memory that this one needs", {}, 0, 0};
-  pool.free_bytes -= bytes;
-  bytes_ += bytes;
+  pool.free_bytes -= missing;
+  bytes_ += missing;
+  asked_ = asked;
   return {};
 }
 
@@ -118,6 +122,7 @@ Grants::Wish Grants::Grant::wish() const {
 Grants::State Grants::state() const {
   const std::lock_guard lock(mutex_);
   State state;
+  state.granted = granted_;
   state.bytes = small_.bytes + large_.bytes;
   state.free_bytes = small_.free_bytes + large_.free_bytes;
   state.places = small_.places + large_.places;

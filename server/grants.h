@@ -47,8 +47,8 @@ class Grants {
    public:
     ~Grant() override;
 
-    // Sets `bytes` more aside. overloaded: others have them, or they are too many for the small lane; wish()
-    // then says what to come again for.
+    // Sets `bytes` more aside; those that it was entered with are used up first. overloaded: others have
+    // them, or they are too many for the small lane; wish() then says what to come again for.
     Result<void> take(Count bytes) override;
     Wish wish() const;
     // The computing is over: gives the place back, and all memory but `bytes`.
@@ -57,12 +57,14 @@ class Grants {
    private:
     friend class Grants;
     Grant(Grants& grants, Lane lane, Count bytes, Clock::time_point began)
-        : grants_(grants), lane_(lane), bytes_(bytes), wanted_(bytes), began_(began) {}
+        : grants_(grants), lane_(lane), bytes_(bytes), began_(began) {}
 
     Grants& grants_;
     const Lane lane_;
     // Guarded by Grants::mutex_.
-    Count bytes_, wanted_;
+    Count bytes_;       // taken from the pool
+    Count asked_ = 0;   // by take(), in all
+    Count wanted_ = 0;  // that, and what was refused last
     bool has_place_ = true;
     const Clock::time_point began_;
   };
@@ -83,6 +85,7 @@ class Grants {
   struct State {
     Count bytes = 0, free_bytes = 0;
     std::size_t places = 0, free_places = 0, waiting = 0;
+    Count granted = 0;  // ever
   };
   State state() const;
 
@@ -102,7 +105,7 @@ class Grants {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Pool small_, large_;
-  Count most_small_bytes_ = 0;
+  Count most_small_bytes_ = 0, granted_ = 0;
   std::uint64_t next_number_ = 0;
 };
 

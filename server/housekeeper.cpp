@@ -32,8 +32,8 @@ std::uint64_t resident_bytes() {
   return read == 2 ? resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
-Housekeeper::Housekeeper(std::function<std::uint64_t()> used, const Slack& slack)
-    : used_(std::move(used)), slack_(slack), thread_([this] { run(); }) {}
+Housekeeper::Housekeeper(std::function<Use()> use, const Slack& slack)
+    : use_(std::move(use)), slack_(slack), thread_([this] { run(); }) {}
 
 Housekeeper::~Housekeeper() {
   {
@@ -45,20 +45,26 @@ Housekeeper::~Housekeeper() {
 }
 
 void Housekeeper::run() {
-  const auto unused = [this](std::uint64_t used) {
+  const auto unused = [this](const Use& use) {
     const std::uint64_t resident = resident_bytes();
-    return resident - std::min(resident, slack_.own + used);
+    return resident - std::min(resident, slack_.own + use.bytes);
   };
-  // What stayed resident after the last trim: torn pages that no trim frees. Trimming again before more has
-  // come would cost time and gain nothing.
-  std::uint64_t stuck = 0;
+  // After a trim: what stayed resident, torn pages that no trim frees, and how many requests there had been.
+  // Trimming again before anything has come would cost time and gain nothing.
+  std::uint64_t stuck = 0, trimmed_after = 0;
   std::unique_lock lock(mutex_);
   while (!ended_changed_.wait_for(lock, kInterval, [this] { return ended_; })) {
-    const std::uint64_t used = used_(), now = unused(used);
+    const Use use = use_();
+    const std::uint64_t now = unused(use);
     stuck = std::min(stuck, now);
-    if (now <= stuck + (used == 0 ? slack_.idle : slack_.busy)) continue;
+    const bool worth_it =
+        use.bytes == 0 ? now > slack_.idle && use.requests != trimmed_after : now > stuck + slack_.busy;
+    if (!worth_it) continue;
     ::malloc_trim(0);
-    stuck = unused(used_());
+    const Use then = use_();
+    stuck = unused(then);
+    // With a request under way, its memory is still to come.
+    trimmed_after = use.bytes == 0 && then.bytes == 0 ? then.requests : 0;
   }
 }
 

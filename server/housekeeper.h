@@ -18,10 +18,14 @@ class Housekeeper {
     std::uint64_t busy = 0;  // that may stay freed but resident while requests come
     std::uint64_t idle = 0;  // and when none is being answered
   };
+  struct Use {
+    std::uint64_t bytes = 0;     // that requests use now
+    std::uint64_t requests = 0;  // how many there have ever been
+  };
 
-  // Twice a second: trims when more is resident than the process's own, what `used` says that requests use,
-  // and the slack. `used` is called from a thread of its own.
-  Housekeeper(std::function<std::uint64_t()> used, const Slack& slack);
+  // Twice a second: trims when more is resident than the process's own, what `use` tells, and the slack.
+  // `use` is called from a thread of its own.
+  Housekeeper(std::function<Use()> use, const Slack& slack);
   ~Housekeeper();
   Housekeeper(const Housekeeper&) = delete;
   Housekeeper& operator=(const Housekeeper&) = delete;
@@ -29,7 +33,7 @@ class Housekeeper {
  private:
   void run();
 
-  const std::function<std::uint64_t()> used_;
+  const std::function<Use()> use_;
   const Slack slack_;
   std::mutex mutex_;
   std::condition_variable ended_changed_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <ctime>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,18 +75,51 @@ std::string http_date() {
   return {text.data(), length};
 }
 
-// Writes the part of the body at `offset`, at most kSendBytes of it.
-bool send_part(const std::vector<Bytes>& body, std::size_t offset, httplib::DataSink& sink) {
-  for (const Bytes& part : body) {
-    if (offset >= part.bytes.size()) {
-      offset -= part.bytes.size();
-      continue;
+// Writes a body piece by piece. It knows where it stands, and puts small parts together: an answer may
+// consist of hundreds of thousands of them.
+class BodySender {
+ public:
+  explicit BodySender(std::shared_ptr<const Response> response) : response_(std::move(response)) {}
+
+  bool send_next(httplib::DataSink& sink) {
+    const std::span<const std::byte> first = take(kSendBytes);
+    if (first.empty()) return false;
+    if (first.size() >= kGatheredBytes || part_ == parts().size()) return write(sink, first);
+    gathered_.assign(text(first));
+    while (gathered_.size() < kGatheredBytes) {
+      const std::span<const std::byte> next = take(kGatheredBytes - gathered_.size());
+      if (next.empty()) break;
+      gathered_.append(text(next));
     }
-    const std::size_t count = std::min(part.bytes.size() - offset, kSendBytes);
-    return sink.write(reinterpret_cast<const char*>(part.bytes.data()) + offset, count);
+    return sink.write(gathered_.data(), gathered_.size());
   }
-  return false;
-}
+
+ private:
+  static constexpr std::size_t kGatheredBytes = 64 * 1024;
+
+  static std::string_view text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  static bool write(httplib::DataSink& sink, std::span<const std::byte> bytes) {
+    return sink.write(text(bytes).data(), bytes.size());
+  }
+  const std::vector<Bytes>& parts() const { return response_->body; }
+
+  // The next bytes, at most so many and of one part; none: that was all.
+  std::span<const std::byte> take(std::size_t most) {
+    while (part_ < parts().size() && offset_ == parts()[part_].bytes.size()) ++part_, offset_ = 0;
+    if (part_ == parts().size()) return {};
+    const std::span<const std::byte> rest = parts()[part_].bytes.subspan(offset_);
+    const std::span<const std::byte> taken = rest.first(std::min(rest.size(), most));
+    offset_ += taken.size();
+    if (taken.size() == rest.size()) ++part_, offset_ = 0;
+    return taken;
+  }
+
+  std::shared_ptr<const Response> response_;
+  std::size_t part_ = 0, offset_ = 0;
+  std::string gathered_;
+};
 
 }  // namespace
 
@@ -133,9 +168,10 @@ void Engine::describe(Response response, httplib::Response& out) {
   const std::uint64_t size = response.size();
   if (size == 0) return;
   const std::string content_type = response.content_type;
-  auto kept = std::make_shared<const Response>(std::move(response));
-  out.set_content_provider(size, content_type, [kept](size_t offset, size_t, httplib::DataSink& sink) {
-    return send_part(kept->body, offset, sink);
+  // httplib asks for the body from its beginning to its end, once.
+  auto sender = std::make_shared<BodySender>(std::make_shared<const Response>(std::move(response)));
+  out.set_content_provider(size, content_type, [sender](size_t, size_t, httplib::DataSink& sink) {
+    return sender->send_next(sink);
   });
 }
 

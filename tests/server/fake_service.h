@@ -34,6 +34,7 @@ class FakeService final : public Service {
       throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
     if (request.path == "/stuck") return stuck();
     if (request.path == "/large") return large();
+    if (request.path == "/crumbs") return crumbs();
     if (request.path == "/wait") return wait(request);
     if (request.path == "/peer") return text(200, request.peer);
     if (request.path == "/size") return text(200, std::to_string(request.body.size()));
@@ -64,7 +65,7 @@ class FakeService final : public Service {
     return response;
   }
 
-  static constexpr std::size_t kLargePart = 3'000'000;
+  static constexpr std::size_t kLargePart = 3'000'000, kCrumbs = 200'000;
   std::atomic<bool> refuse_throws = false, record_throws = false;
   std::atomic<bool> let_go = false;                  // ends /wait and /stuck
   std::atomic<int> waiting = 0, seen_cancelled = 0;  // requests in /wait; those that were cancelled there
@@ -76,6 +77,16 @@ class FakeService final : public Service {
   static Response large() {
     Response response = text(200, std::string(kLargePart, 'a'));
     response.body.push_back(Bytes::of(std::string(kLargePart, 'b')));
+    return response;
+  }
+
+  // Parts of every size up to a hundred bytes, empty ones and a large one among them.
+  static Response crumbs() {
+    Response response = text(200, "");
+    for (std::size_t i = 0; i < kCrumbs; ++i)
+      response.body.push_back(Bytes::of(std::string(i % 100, static_cast<char>('a' + i % 26))));
+    response.body.push_back(Bytes::of(std::string(kLargePart, 'z')));
+    response.body.push_back(Bytes::of("end"));
     return response;
   }
 

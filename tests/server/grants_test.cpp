@@ -89,6 +89,7 @@ TEST(Grants, send_what_takes_much_memory_to_the_large_lane) {
   const auto large = grants.enter(kLarge, Clock::now(), nullptr);
   EXPECT_FALSE(granted(grants.enter({Lane::small, 40 * kMiB}, Clock::now(), nullptr)));
   const auto small = grants.enter({Lane::small, kMiB}, Clock::now(), nullptr);
+  ASSERT_TRUE(grant_of(small).take(kMiB));
   const auto taken = grant_of(small).take(40 * kMiB);
   EXPECT_EQ(taken.error().code, ErrorCode::overloaded);
   EXPECT_EQ(grant_of(small).wish().lane, Lane::large);
@@ -99,16 +100,30 @@ TEST(Grants, say_what_to_come_again_for) {
   const auto first = grants.enter({Lane::large, 50 * kMiB}, Clock::now(), nullptr);
   {
     const auto second = grants.enter({Lane::large, 10 * kMiB}, Clock::now(), nullptr);
-    EXPECT_EQ(grant_of(second).take(20 * kMiB).error().code, ErrorCode::overloaded);
+    ASSERT_TRUE(grant_of(second).take(15 * kMiB));
+    EXPECT_EQ(grant_of(second).take(15 * kMiB).error().code, ErrorCode::overloaded);
     EXPECT_EQ(grant_of(second).wish().bytes, 30 * kMiB);
   }
   EXPECT_EQ(grants.state().free_bytes, 30 * kMiB);
+}
+// It came again for what it had been short of, and asked for all of it once more on top: whether a request
+// could be had depended on how busy the others were.
+TEST(Grants, count_what_was_wished_for_only_once) {
+  Grants grants(shares(1, 0));
+  const auto again = grants.enter({Lane::large, 40 * kMiB}, Clock::now(), nullptr);
+  EXPECT_TRUE(grant_of(again).take(30 * kMiB));
+  EXPECT_TRUE(grant_of(again).take(10 * kMiB));
+  EXPECT_EQ(grants.state().free_bytes, 40 * kMiB);
+  EXPECT_TRUE(grant_of(again).take(30 * kMiB));
+  EXPECT_EQ(grants.state().free_bytes, 10 * kMiB);
+  EXPECT_EQ(grant_of(again).take(kMiB).error().code, ErrorCode::too_large);
 }
 TEST(Grants, refuse_for_ever_what_can_never_be_had) {
   Grants grants(shares(1, 1));
   EXPECT_EQ(std::get<Denied>(grants.enter({Lane::large, 71 * kMiB}, Clock::now() + seconds(10), nullptr)),
             Denied::too_large);
   const auto grant = grants.enter({Lane::large, 10 * kMiB}, Clock::now(), nullptr);
+  ASSERT_TRUE(grant_of(grant).take(10 * kMiB));
   const auto taken = grant_of(grant).take(61 * kMiB);
   EXPECT_EQ(taken.error().code, ErrorCode::too_large);
   EXPECT_EQ(taken.error().predicted, 71 * kMiB);
