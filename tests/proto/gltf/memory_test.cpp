@@ -207,7 +207,7 @@ TEST(Memory, that_runs_out_is_no_fault_of_the_body) {
   lines.primitive({{"POSITION", 0}}, -1, 3);
   for (const Body& body : {Body{"glb", lines.glb()}, Body{"gltf", lines.gltf(), Format::gltf}})
     EXPECT_GT(readings_until_enough(body, 32), 1000);
-  EXPECT_GT(readings_until_enough({"sparse", sparse(40)}, 32), 1000);
+  EXPECT_GT(readings_until_enough({"sparse", sparse(42)}, 8), 1000);
   EXPECT_GT(readings_until_enough({"attack", attacks()[10].body(300)}, 4096), 100);
 }
 
