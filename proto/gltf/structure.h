@@ -16,8 +16,7 @@
 
 namespace subdivd::proto::gltf {
 
-class Structure {
- public:
+struct Structure {
   // By its number in the document; used by a primitive of triangles or lines.
   const tinygltf::Accessor& accessor(Index number) const { return model.accessors[accessor_places[number]]; }
 
