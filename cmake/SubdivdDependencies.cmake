@@ -4,6 +4,7 @@
 find_package(Threads REQUIRED)
 find_package(OpenSubdiv 3.5 REQUIRED)                 # OpenSubdiv::osdCPU             core/oracle
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)      # nlohmann_json::nlohmann_json   proto
+find_package(TinyGLTF 2.7 CONFIG REQUIRED)            # TinyGLTF::TinyGLTF             proto
 find_package(CppHttplib 0.11 REQUIRED)                # CppHttplib::CppHttplib         server
 find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)  # OpenSSL::Crypto                server
 find_package(spdlog 1.10 CONFIG REQUIRED)             # spdlog::spdlog                 server

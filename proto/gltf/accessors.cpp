@@ -25,7 +25,7 @@ double normalize(T value) {
 
 // Calls use(T{}) with the C++ type of a component.
 template <class F>
-void with_component(Count component, const F& use) {
+void with_component(int component, const F& use) {
   switch (component) {
     case kByte:
       return use(std::int8_t{});
@@ -47,36 +47,51 @@ template <class T, class Out, class Convert>
 class ElementReader {
  public:
   ElementReader(const Elements& from, Index accessor, const Convert& convert, Work& work)
-      : layout_(from.layout),
+      : model_(from.structure.model),
         buffers_(from.buffers),
-        info_(from.layout.accessors[accessor]),
-        width_(info_.components),
+        accessor_(from.structure.accessor(accessor)),
+        width_(components_of(accessor_)),
         packed_(width_ * sizeof(T)),
         convert_(convert),
         work_(work) {}
 
   Result<void> append(std::span<const Index> chosen, std::vector<Out>& out) const {
-    const std::size_t begin = out.size(), count = chosen.empty() ? info_.count : chosen.size();
+    const std::size_t begin = out.size(), count = chosen.empty() ? accessor_.count : chosen.size();
     for (std::size_t first = 0; first < count; first += kPiece) {
       append_dense(chosen, first, std::min(count - first, kPiece), out);
       if (auto stop = work_.spend(kPiece * width_ / 4)) return *std::move(stop);
     }
-    if (info_.sparse == kNoIndex) return {};
+    if (!accessor_.sparse.isSparse) return {};
     return lay_sparse(chosen, out.data() + begin);
   }
 
  private:
   static constexpr std::size_t kPiece = 8192;  // elements
 
+  // Elements that are laid over the others: their numbers, ascending, and their values, both packed.
+  struct Sparse {
+    std::size_t count;
+    const std::byte* indices;
+    const std::byte* values;
+  };
+
+  const tinygltf::BufferView& view(int index) const {
+    return model_.bufferViews[static_cast<std::size_t>(index)];
+  }
+  const std::byte* in_view(int index, std::size_t offset) const {
+    return buffers_.bytes[static_cast<std::size_t>(view(index).buffer)].data() + view(index).byteOffset +
+           offset;
+  }
+
   void append_dense(std::span<const Index> chosen, std::size_t first, std::size_t count,
                     std::vector<Out>& out) const {
-    if (!info_.view) {
+    if (accessor_.bufferView < 0) {
       out.resize(out.size() + count * width_);
       return;
     }
-    const ViewInfo& view = layout_.views[*info_.view];
-    const std::byte* const data = buffers_.bytes[view.buffer].data() + view.offset + info_.offset;
-    const std::size_t stride = view.stride != 0 ? view.stride : packed_;
+    const std::byte* const data = in_view(accessor_.bufferView, accessor_.byteOffset);
+    const std::size_t view_stride = view(accessor_.bufferView).byteStride;
+    const std::size_t stride = view_stride != 0 ? view_stride : packed_;
     std::size_t at = out.size();
     out.resize(at + count * width_);
     if (chosen.empty() && stride == packed_) {
@@ -92,30 +107,31 @@ class ElementReader {
 
   // Lays what the sparse part says of the elements over them.
   Result<void> lay_sparse(std::span<const Index> chosen, Out* out) const {
-    const SparseInfo& sparse = layout_.sparse[info_.sparse];
+    const auto& sparse = accessor_.sparse;
+    const Sparse list{static_cast<std::size_t>(sparse.count),
+                      in_view(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset)),
+                      in_view(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset))};
     Result<void> done;
-    with_component(sparse.index_component, [&](auto component) {
+    with_component(sparse.indices.componentType, [&](auto component) {
       if constexpr (std::is_unsigned_v<decltype(component)>)
-        done = chosen.empty() ? lay_all<decltype(component)>(sparse, out)
-                              : lay_chosen<decltype(component)>(sparse, chosen, out);
+        done = chosen.empty() ? lay_all<decltype(component)>(list, out)
+                              : lay_chosen<decltype(component)>(list, chosen, out);
     });
     return done;
   }
 
   template <class Number>
-  std::size_t sparse_element(const SparseInfo& sparse, std::size_t i) const {
-    return load<Number>(buffers_.bytes[sparse.index_buffer].data() + sparse.index_offset +
-                        i * sizeof(Number));
+  static std::size_t sparse_element(const Sparse& sparse, std::size_t i) {
+    return load<Number>(sparse.indices + i * sizeof(Number));
   }
 
-  void lay(const SparseInfo& sparse, std::size_t i, Out* to) const {
-    const std::byte* const from =
-        buffers_.bytes[sparse.value_buffer].data() + sparse.value_offset + i * packed_;
+  void lay(const Sparse& sparse, std::size_t i, Out* to) const {
+    const std::byte* const from = sparse.values + i * packed_;
     for (std::size_t k = 0; k < width_; ++k) to[k] = convert_(load<T>(from + k * sizeof(T)));
   }
 
   template <class Number>
-  Result<void> lay_all(const SparseInfo& sparse, Out* out) const {
+  Result<void> lay_all(const Sparse& sparse, Out* out) const {
     for (std::size_t i = 0; i < sparse.count; ++i) {
       if (auto stop = work_.spend(1)) return *std::move(stop);
       lay(sparse, i, out + sparse_element<Number>(sparse, i) * width_);
@@ -125,7 +141,7 @@ class ElementReader {
 
   // Few elements may be chosen of a long list that many primitives share: they look for themselves in it.
   template <class Number>
-  Result<void> lay_chosen(const SparseInfo& sparse, std::span<const Index> chosen, Out* out) const {
+  Result<void> lay_chosen(const Sparse& sparse, std::span<const Index> chosen, Out* out) const {
     std::size_t low = 0;
     for (std::size_t c = 0; c < chosen.size() && low < sparse.count; ++c) {
       if (auto stop = work_.spend(16)) return *std::move(stop);
@@ -143,9 +159,9 @@ class ElementReader {
     return {};
   }
 
-  const Layout& layout_;
+  const tinygltf::Model& model_;
   const Buffers& buffers_;
-  const AccessorInfo& info_;
+  const tinygltf::Accessor& accessor_;
   std::size_t width_, packed_;
   Convert convert_;
   Work& work_;
@@ -153,11 +169,15 @@ class ElementReader {
 
 }  // namespace
 
+Index components_of(const tinygltf::Accessor& accessor) {
+  return static_cast<Index>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+}
+
 Result<void> append_reals(const Elements& from, Index accessor, std::span<const Index> chosen,
                           std::vector<double>& out, Work& work) {
-  const AccessorInfo& info = from.layout.accessors[accessor];
+  const tinygltf::Accessor& info = from.structure.accessor(accessor);
   Result<void> done;
-  with_component(info.component, [&](auto component) {
+  with_component(info.componentType, [&](auto component) {
     using T = decltype(component);
     const auto append = [&](const auto& convert) {
       done = ElementReader<T, double, std::decay_t<decltype(convert)>>(from, accessor, convert, work)
@@ -173,9 +193,10 @@ Result<void> append_reals(const Elements& from, Index accessor, std::span<const 
 
 Result<std::vector<Index>> read_indices(const Elements& from, Index accessor, Work& work) {
   std::vector<Index> out;
-  out.reserve(from.layout.accessors[accessor].count);
+  const tinygltf::Accessor& info = from.structure.accessor(accessor);
+  out.reserve(info.count);
   Result<void> done;
-  with_component(from.layout.accessors[accessor].component, [&](auto component) {
+  with_component(info.componentType, [&](auto component) {
     using T = decltype(component);
     const auto widen = [](T value) { return static_cast<Index>(value); };
     if constexpr (std::is_unsigned_v<T>)

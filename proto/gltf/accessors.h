@@ -7,15 +7,18 @@
 
 #include "core/base/result.h"
 #include "proto/gltf/buffers.h"
-#include "proto/gltf/layout.h"
+#include "proto/gltf/structure.h"
 #include "proto/gltf/work.h"
 
 namespace subdivd::proto::gltf {
 
 struct Elements {
-  const Layout& layout;
+  const Structure& structure;
   const Buffers& buffers;
 };
+
+// Scalars of an element.
+Index components_of(const tinygltf::Accessor& accessor);
 
 // Appends all scalars, element after element, of the elements `chosen` (ascending), or of all when it is
 // empty. Normalized integers become numbers in [-1, 1] or [0, 1]. `out` should have room for them.

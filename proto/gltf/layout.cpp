@@ -136,13 +136,13 @@ struct Checker {
   Layout& layout;
   std::vector<SparseList> lists;
 
-  Result<SparseInfo> sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
-                            Count element_bytes);
+  Result<void> sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
+                      Count element_bytes);
   Result<AccessorInfo> accessor(const Json& json, const Place& place);
 };
 
-Result<SparseInfo> Checker::sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
-                                   Count element_bytes) {
+Result<void> Checker::sparse(const Json& json, const Place& place, const AccessorInfo& accessor,
+                             Count element_bytes) {
   const auto count = required_integer(json, "count", place, {1, accessor.count});
   if (!count) return count.error();
   const auto indices = required_object(json, "indices", place);
@@ -178,16 +178,10 @@ Result<SparseInfo> Checker::sparse(const Json& json, const Place& place, const A
                             values_in, at_values);
       !fits)
     return fits.error();
-  SparseInfo info{*count,
-                  index_view.buffer,
-                  values_in.buffer,
-                  index_view.offset + run.offset,
-                  values_in.offset + value_offset->value_or(0),
-                  *component};
-  const Count begin = info.index_offset / size;
-  lists.push_back({info.index_buffer, size, begin, begin + *count, accessor.count,
+  const Count begin = (index_view.offset + run.offset) / size;
+  lists.push_back({index_view.buffer, size, begin, begin + *count, accessor.count,
                    static_cast<Index>(layout.accessors.size())});
-  return info;
+  return {};
 }
 
 // Bytes from one element's first to its last: columns of matrices begin at multiples of 4.
@@ -231,13 +225,11 @@ Result<AccessorInfo> Checker::accessor(const Json& json, const Place& place) {
                     "\"type\" is none of SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
   info.type = type->name;
   info.components = type->rows * type->columns;
-  info.matrix = type->columns > 1;
 
   const Count bytes = element_size(*type, size);
-  info.offset = offset->value_or(0);
   if (info.view) {
     const ViewInfo& data = layout.views[*info.view];
-    const Count packed = info.matrix ? (bytes + 3) / 4 * 4 : bytes;
+    const Count packed = type->columns > 1 ? (bytes + 3) / 4 * 4 : bytes;
     const Run run{offset->value_or(0), data.stride != 0 ? data.stride : packed, bytes, info.count, size};
     if (auto fits = check_run(run, data, place); !fits) return fits.error();
   } else if (*offset) {
@@ -247,10 +239,7 @@ Result<AccessorInfo> Checker::accessor(const Json& json, const Place& place) {
   const auto sparse = optional_object(json, "sparse", place);
   if (!sparse) return sparse.error();
   if (*sparse != nullptr) {
-    const auto laid_over = this->sparse(**sparse, place.at("sparse"), info, bytes);
-    if (!laid_over) return laid_over.error();
-    info.sparse = static_cast<Index>(layout.sparse.size());
-    layout.sparse.push_back(*laid_over);
+    if (auto good = this->sparse(**sparse, place.at("sparse"), info, bytes); !good) return good.error();
   }
   return info;
 }
@@ -298,14 +287,10 @@ Result<Layout> check_layout(const Json& document, const Buffers& buffers, Work& 
   const Json::Array& list = *(*accessors)->array();
   const auto sparse = static_cast<Count>(std::count_if(
       list.begin(), list.end(), [](const Json& json) { return json.find("sparse") != nullptr; }));
-  if (auto kept =
-          work.keep(list.size() * sizeof(AccessorInfo) + sparse * sizeof(SparseInfo) + 2 * kBlockBytes);
-      !kept)
-    return kept.error();
+  if (auto kept = work.keep(list.size() * sizeof(AccessorInfo) + kBlockBytes); !kept) return kept.error();
   const auto held = work.hold(sparse * sizeof(SparseList) + kBlockBytes);
   if (!held) return held.error();
   layout.accessors.reserve(list.size());
-  layout.sparse.reserve(sparse);
   checker.lists.reserve(sparse);
   for (const Json& json : list) {
     if (auto stop = work.spend(32)) return *std::move(stop);

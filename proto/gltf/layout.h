@@ -22,26 +22,15 @@ struct ViewInfo {
 
 struct AccessorInfo {
   std::optional<Index> view;  // none: zeros
-  Count offset = 0;           // within the view
   std::string_view type;      // SCALAR, VEC2, …
   Count component = 0, count = 0;
   Count components = 0;  // scalars per element
-  bool normalized = false, matrix = false;
-  Index sparse = kNoIndex;  // of Layout::sparse
-};
-
-// Elements that are laid over the others: their numbers, ascending, and their values, both packed.
-struct SparseInfo {
-  Count count = 0;
-  Index index_buffer = 0, value_buffer = 0;
-  Count index_offset = 0, value_offset = 0;  // in the buffers
-  Count index_component = 0;
+  bool normalized = false;
 };
 
 struct Layout {
   std::vector<ViewInfo> views;
   std::vector<AccessorInfo> accessors;
-  std::vector<SparseInfo> sparse;
 };
 
 // Every element of every accessor, dense and sparse, can be read from `buffers` afterwards.

@@ -42,11 +42,11 @@ Result<std::vector<Index>> read_corners(const Asset& asset, const Json& primitiv
     return corners;
   }
   const auto accessor = static_cast<Index>(*reference->integer());
-  const AccessorInfo& info = asset.elements.layout.accessors[accessor];
+  const tinygltf::Accessor& info = asset.elements.structure.accessor(accessor);
   if (auto kept = asset.work.keep(info.count * sizeof(Index) + kBlockBytes); !kept) return kept.error();
   auto corners = read_indices(asset.elements, accessor, asset.work);
   if (!corners) return corners;
-  const Count size = component_size(info.component);
+  const Count size = component_size(static_cast<Count>(info.componentType));
   const Index restart = static_cast<Index>((Count{1} << (8 * size)) - 1);
   const auto good = for_pieces(
       std::span<const Index>(*corners), asset.work,
@@ -63,7 +63,8 @@ Result<std::vector<Index>> read_corners(const Asset& asset, const Json& primitiv
 }
 
 // Whether the attribute comes along; warns when it does not.
-bool carries(std::string_view name, const AccessorInfo& accessor, const Asset& asset, const Place& place) {
+bool carries(std::string_view name, const tinygltf::Accessor& accessor, const Asset& asset,
+             const Place& place) {
   switch (semantic_of(name)) {
     case Semantic::position:
     case Semantic::normal:
@@ -78,7 +79,8 @@ bool carries(std::string_view name, const AccessorInfo& accessor, const Asset& a
       asset.warnings.add("An attribute of unknown meaning is dropped", place.at("attributes").at(name));
       return false;
     case Semantic::custom:
-      if (accessor.matrix) {
+      if (accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3 ||
+          accessor.type == TINYGLTF_TYPE_MAT4) {
         asset.warnings.add("A custom attribute of matrices is dropped", place.at("attributes").at(name));
         return false;
       }
@@ -155,14 +157,14 @@ Result<PrimitiveData> read_primitive(const Asset& asset, const Json& primitive, 
   if (auto stop = asset.work.spend(64)) return *std::move(stop);
   for (const Json::Member& attribute : attributes) {
     const auto accessor = static_cast<Index>(*attribute.value.integer());
-    const AccessorInfo& info = asset.elements.layout.accessors[accessor];
+    const tinygltf::Accessor& info = asset.elements.structure.accessor(accessor);
     if (attribute.name == "POSITION") {
       data.position_accessor = accessor;
       data.vertex_count = static_cast<Index>(info.count);
     }
     data.has_normals |= attribute.name == "NORMAL";
     if (carries(attribute.name, info, asset, place))
-      data.channels.push_back({attribute.name, accessor, static_cast<Index>(info.components)});
+      data.channels.push_back({attribute.name, accessor, components_of(info)});
   }
   std::sort(data.channels.begin(), data.channels.end(),
             [](const PrimitiveChannel& a, const PrimitiveChannel& b) { return a.name < b.name; });
@@ -212,7 +214,7 @@ Result<void> append_values(const Asset& asset, const PrimitiveData& data, Index 
   const auto bad = static_cast<Count>(
       std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); }) -
       values.begin());
-  const Count width = asset.elements.layout.accessors[accessor].components;
+  const Count width = components_of(asset.elements.structure.accessor(accessor));
   const Count element = data.original.empty() ? bad / width : data.original[bad / width];
   return error_at(
       place, ErrorCode::not_finite,

@@ -10,6 +10,7 @@
 #include "proto/gltf/read_lines.h"
 #include "proto/gltf/read_triangles.h"
 #include "proto/gltf/source.h"
+#include "proto/gltf/structure.h"
 #include "proto/gltf/validate.h"
 
 namespace subdivd::proto::gltf {
@@ -109,6 +110,8 @@ Result<RefineRequest> read(std::string_view body, Format format, const Options& 
   const auto layout = check_layout(*document, *buffers, work);
   if (!layout) return layout.error();
   if (auto good = check_structure(*document, *layout, limits, work); !good) return good.error();
+  const auto structure = load_structure(*document, *layout, work);
+  if (!structure) return structure.error();
 
   RefineRequest request;
   request.input = format;
@@ -117,7 +120,7 @@ Result<RefineRequest> read(std::string_view body, Format format, const Options& 
   Warnings warnings;
   const Format answer = options.format.value_or(format);
   if (auto good = read_foreign_chunks(container, answer, *source, warnings, work); !good) return good.error();
-  const Asset asset{*document->find("meshes")->array(), {*layout, *buffers}, warnings, work};
+  const Asset asset{*document->find("meshes")->array(), {*structure, *buffers}, warnings, work};
   if (auto good = read_meshes(asset, options, limits, request, *source); !good) return good.error();
   source->document = *std::move(document);
   if (auto patched = patch(*source, *buffers, *only_append, warnings, work); !patched) return patched.error();

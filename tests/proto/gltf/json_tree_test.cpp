@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -95,7 +97,144 @@ TEST(JsonTree, reads_escapes_and_surrogate_pairs) {
   EXPECT_EQ(*(*parsed->array())[0].string(), "\U0001F600\u00e9\u20ac/\b\f\n\r\t\"\\");
 }
 
-// What another strict parser says of the same text.
+TEST(JsonTree, keeps_a_negative_zero) { EXPECT_EQ(parse("[-0,-0.0]", {})->text(), "[-0,-0.0]"); }
+
+// The text as nlohmann's own tree holds it, or nothing.
+std::optional<nlohmann::ordered_json> reference(const std::string& text) {
+  auto tree = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (tree.is_discarded()) return std::nullopt;
+  return tree;
+}
+
+void expect_as_reference(const std::string& text) {
+  const auto parsed = parse(text, {});
+  const auto expected = reference(text);
+  ASSERT_EQ(parsed.ok(), expected.has_value()) << text.substr(0, 100);
+  if (parsed) {
+    EXPECT_EQ(reference(parsed->text()), expected) << text.substr(0, 100);
+  }
+}
+
+// Long strings and white space take another way than short ones: every length around the limits, with
+// characters and escapes of every length at every place where a slice may end.
+TEST(JsonTree, agrees_with_nlohmann_on_long_strings) {
+  const std::vector<std::string> units = {
+      "x",       "\u00e9", "\\ud83d\\ude00", "\\\\",    "\\\"",     "\xe2\x82\xac", "\xf0\x9f\x98\x80",
+      "\\u00e9", "\\u12",  "\\ud83d",        "\\ude00", "\xe2\x82", "\x80",         "\n"};
+  for (const std::string& unit : units) {
+    for (std::size_t shift = 0; shift < 13; ++shift) {
+      for (const std::size_t size : {4096 / unit.size() + 1, 12300 / unit.size()}) {
+        std::string content(shift, 'a');
+        for (std::size_t i = 0; i < size; ++i) content += unit;
+        expect_as_reference("[\"" + content + "\",1]");
+        expect_as_reference("{\"" + content + "\":[\"" + content + "\"]}");
+      }
+      std::string once(4090 + shift, 'a');
+      once += unit + std::string(5000, 'b');
+      expect_as_reference("[\"" + once + "\"]");
+    }
+  }
+}
+
+TEST(JsonTree, agrees_with_nlohmann_on_long_white_space) {
+  for (const unsigned size : {4095u, 4096u, 4097u, 4098u, 200000u}) {
+    const std::string space(size, ' '), lines(size, '\n');
+    for (const std::string& text :
+         {space + "[1" + lines + "," + space + "\"a\"" + space + "]" + lines, "1" + space + "2",
+          "[1" + space + "2]", space, "\"" + space + "\"", "\"" + lines + "\"", "[\"a\"" + space + "\"b\"]",
+          "\xEF\xBB\xBF" + space + "{}", "{\"a\"" + space + ":" + lines + "0}"})
+      expect_as_reference(text);
+  }
+}
+
+TEST(JsonTree, says_where_a_text_is_broken) {
+  const std::string head(10000, 'h'), space(10000, ' ');
+  struct Case {
+    std::string text;
+    std::size_t byte;
+  };
+  for (const Case& one : std::vector<Case>{
+           {"[1,x]", 3},
+           {"[1 2]", 3},
+           {"[1", 2},
+           {"[\"" + head, 10002},
+           {"[\"" + head + "\",x]", 10004},
+           {"[\"" + head + "\\x" + head + "\"]", 10003},
+           {"[\"" + head + "\x80" + head + "\"]", 10002},
+           {"[" + space + "\"" + head + "\"" + space + "x]", 30003},
+       }) {
+    const Error error = error_of(one.text);
+    EXPECT_EQ(error.code, ErrorCode::malformed);
+    EXPECT_NE(error.message.find("at byte " + std::to_string(one.byte) + ":"), std::string::npos)
+        << error.message;
+    EXPECT_LT(error.message.size(), 200u);
+    for (const char* word : {"json.exception", "parse error", "last read", "syntax"})
+      EXPECT_EQ(error.message.find(word), std::string::npos) << error.message;
+  }
+}
+
+TEST(JsonTree, refuses_numbers_of_thousands_of_digits) {
+  const Error error = error_of("[" + std::string(5000, '9') + ".0]");
+  EXPECT_EQ(error.code, ErrorCode::too_large);
+  EXPECT_EQ(error.allowed, 4096u);
+  EXPECT_TRUE(parse("[0." + std::string(4000, '1') + "]", {}).ok());
+}
+
+// Gives so much and no more.
+class Counting : public MemoryGrant {
+ public:
+  Result<void> take(Count bytes) override {
+    sum += bytes;
+    if (sum <= allowed) return {};
+    return Error{ErrorCode::overloaded, "no memory now", {}, 0, 0};
+  }
+  Count sum = 0, allowed = ~Count{0};
+};
+
+TEST(JsonTree, says_that_it_was_stopped_and_nothing_else) {
+  const std::string text =
+      "[\"" + std::string(300000, 's') + "\"," + std::string(300000, ' ') + "{\"a\":[1,2]}]";
+  const std::atomic<bool> gone{true};
+  Budget budget;
+  budget.cancelled = &gone;
+  Work work(budget);
+  const auto parsed = parse_json(text, {}, work);
+  ASSERT_FALSE(parsed.ok());
+  EXPECT_EQ(parsed.error().code, ErrorCode::cancelled);
+  for (Count allowed = 0;; allowed += 10000) {
+    Counting grant;
+    grant.allowed = allowed;
+    Budget small;
+    small.memory = &grant;
+    Work limited(small);
+    const auto read = parse_json(text, {}, limited);
+    if (read) break;
+    EXPECT_EQ(read.error().code, ErrorCode::overloaded);
+  }
+}
+
+TEST(JsonTree, is_stopped_within_a_string) {
+  const std::string text = "[\"" + std::string(200000000, 's') + "\"]";
+  Budget budget;
+  budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(20);
+  Work work(budget);
+  const auto parsed = parse_json(text, {}, work);
+  ASSERT_FALSE(parsed.ok());
+  EXPECT_EQ(parsed.error().code, ErrorCode::deadline_exceeded);
+}
+
+// A data URI would be held six times over.
+TEST(JsonTree, asks_for_a_long_string_once) {
+  Counting grant;
+  Budget budget;
+  budget.memory = &grant;
+  Work work(budget);
+  const std::string text = "[\"" + std::string(10000000, 's') + "\"]";
+  ASSERT_TRUE(parse_json(text, {}, work).ok());
+  EXPECT_LT(grant.sum, 10300000u);
+}
+
+// What nlohmann's own tree makes of the same text.
 TEST(JsonTree, agrees_with_nlohmann_on_mutated_documents) {
   const std::string seed =
       R"({"a":[1,-2.5e3,true,null,"x\u00e9\ud83d\ude00\n"],"b":{"c":{},"d":[]},"é":"€","n":0.1E-2, "t" : [ [ ] , { } ] })";

@@ -8,23 +8,26 @@
 #include <cstdlib>
 #include <new>
 
+#include "proto/gltf/json_tree.h"
 #include "tests/proto/gltf/attacks.h"
 #include "tests/proto/gltf/pipeline.h"
+#include "tests/proto/gltf/unlimited.h"
 #include "tests/support/gltf_builder.h"
 
 namespace {
 
 std::atomic<bool> counting{false};
-std::atomic<std::int64_t> live{0}, peak{0}, until_failure{-1};
+std::atomic<std::int64_t> live{0}, peak{0}, until_failure{-1}, ceiling{-1};
 
 void* counted(void* block) {
   if (block == nullptr) throw std::bad_alloc();
   if (!counting) return block;
-  if (until_failure >= 0 && until_failure-- == 0) {
+  const auto size = static_cast<std::int64_t>(malloc_usable_size(block));
+  if ((until_failure >= 0 && until_failure-- == 0) || (ceiling >= 0 && live + size > ceiling)) {
     std::free(block);
     throw std::bad_alloc();
   }
-  live += static_cast<std::int64_t>(malloc_usable_size(block));
+  live += size;
   if (live > peak) peak = live.load();
   return block;
 }
@@ -180,26 +183,52 @@ TEST(Memory, of_strange_assets_is_asked_for) {
   }
 }
 
-// `ulimit -v` made "no JSON" of a valid body.
+// Reads it again and again, each time with a little more memory, until it is enough; returns how often.
+int readings_until_enough(const Body& body, std::int64_t step) {
+  for (int i = 0;; ++i) {
+    live = 0;
+    ceiling = i * step;
+    counting = true;
+    try {
+      const auto request = proto::gltf::read(body.bytes, body.format, {}, {});
+      counting = false;
+      EXPECT_TRUE(request.ok()) << request.error().message;
+      ceiling = -1;
+      return i;
+    } catch (const std::bad_alloc&) {
+      counting = false;
+    }
+  }
+}
+
+// `ulimit -v` made "no JSON" of a valid body. tinygltf makes a fault of the file of it, or ends the program.
 TEST(Memory, that_runs_out_is_no_fault_of_the_body) {
   GltfBuilder lines = seamed_octahedron();
   lines.primitive({{"POSITION", 0}}, -1, 3);
-  for (const Body& body : {Body{"glb", lines.glb()}, Body{"gltf", lines.gltf(), Format::gltf}}) {
-    std::int64_t failures = 0;
-    for (;; ++failures) {
-      until_failure = failures;
-      counting = true;
-      try {
-        const auto request = proto::gltf::read(body.bytes, body.format, {}, {});
-        counting = false;
-        ASSERT_TRUE(request.ok()) << request.error().message;
-        break;
-      } catch (const std::bad_alloc&) {
-        counting = false;
-      }
+  for (const Body& body : {Body{"glb", lines.glb()}, Body{"gltf", lines.gltf(), Format::gltf}})
+    EXPECT_GT(readings_until_enough(body, 32), 1000);
+  EXPECT_GT(readings_until_enough({"sparse", sparse(42)}, 8), 1000);
+  EXPECT_GT(readings_until_enough({"attack", attacks()[10].body(300)}, 4096), 100);
+}
+
+TEST(Memory, that_runs_out_at_any_place_is_no_fault_of_the_text) {
+  const std::string text = R"({"a":[1,2.5,{"b":"a string that is longer than fifteen"}],"c":")" +
+                           std::string(10000, 's') + R"(","d":{"e":null,"f":true}})";
+  std::int64_t failures = 0;
+  for (;; ++failures) {
+    until_failure = failures;
+    counting = true;
+    try {
+      Unlimited unlimited;
+      const auto parsed = proto::gltf::parse_json(text, {}, unlimited.work);
+      counting = false;
+      ASSERT_TRUE(parsed.ok()) << parsed.error().message;
+      break;
+    } catch (const std::bad_alloc&) {
+      counting = false;
     }
-    EXPECT_GT(failures, 100);
   }
+  EXPECT_GT(failures, 20);
   until_failure = -1;
 }
 
