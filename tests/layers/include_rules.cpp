@@ -33,7 +33,7 @@ const std::vector<Layer> kLayers = {
   {"core/oracle",      {"core/base/", "core/mesh/", "core/refine/", "core/limit/", "core/curves/", "core/surfaces/", "core/oracle/"}, {"opensubdiv/"}},
   {"proto",            {"core/base/", "core/splines/", "core/curves/", "core/surfaces/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/",
                         "core/analysis/", "core/oracle/report.h", "proto/"}, {"nlohmann/", "tiny_gltf.h"}},
-  {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "POSIX"}},
+  {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "malloc.h", "POSIX"}},
   {"server/transport", {"core/base/", "proto/", "server/"}, {"httplib.h", "spdlog/", "openssl/", "POSIX"}},
 };
 
