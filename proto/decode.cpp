@@ -46,7 +46,7 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
 
 Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const QueryParameters& query,
                                const Limits& limits, const Budget& budget) {
-  const bool magic = body.starts_with(kGlbMagic);
+  const bool magic = is_glb(body);
   switch (kind) {
     case BodyKind::glb:
       return read_gltf(body, Format::glb, query, limits, budget);
@@ -119,6 +119,8 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
 }
 
 }  // namespace
+
+bool is_glb(std::string_view body) { return body.starts_with(kGlbMagic); }
 
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
                                     const Limits& limits, const Budget& budget) {

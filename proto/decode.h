@@ -18,6 +18,9 @@ namespace subdivd::proto {
 // JSON.
 enum class BodyKind { unspecified, json, glb, gltf };
 
+// Whether the body begins as a GLB does.
+bool is_glb(std::string_view body);
+
 using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
 // Reads and validates a whole request: body, then query parameters over its options. The body need not be

@@ -57,8 +57,8 @@ std::vector<Route> Application::routes() {
     return [this, kind](Request& request) { return geometry_.curves(request, kind); };
   };
   return {
-      {"POST", "/v1/refine", [this](Request& request) { return geometry_.refine(request); }},
-      {"POST", "/v1/verify", [this](Request& request) { return geometry_.verify(request); }},
+      {"POST", "/v1/refine", [this](Request& request) { return geometry_.refine(request); }, true},
+      {"POST", "/v1/verify", [this](Request& request) { return geometry_.verify(request); }, true},
       {"POST", "/v1/evaluate", curves(proto::CurveTaskKind::evaluate)},
       {"POST", "/v1/curves/refine", curves(proto::CurveTaskKind::refine)},
       {"POST", "/v1/curves/evaluate", curves(proto::CurveTaskKind::evaluate)},
@@ -114,7 +114,7 @@ std::optional<Response> Application::screen_plainly(const Request& head) {
   if (route->method != "POST") return std::nullopt;
   if (draining_)
     return problem_response(Refusal{503, "shutting_down", "this server is finishing its last requests"});
-  return screen_body(head);
+  return screen_body(head, route->takes_gltf);
 }
 
 Lane Application::lane(const Request& head) {

@@ -21,7 +21,7 @@ void Cors::allow(const Request& request, Response& response) const {
   if (!any_) response.headers.emplace_back("Vary", "Origin");
   if (!allows(request)) return;
   response.headers.emplace_back("Access-Control-Allow-Origin", any_ ? "*" : *request.header("origin"));
-  response.headers.emplace_back("Access-Control-Expose-Headers", "Retry-After");
+  response.headers.emplace_back("Access-Control-Expose-Headers", "Retry-After, Server-Timing");
 }
 
 void Cors::answer_preflight(const Request& request, std::string_view methods, Response& response) const {

@@ -16,6 +16,7 @@ struct Route {
   std::string_view method;  // GET answers HEAD too
   std::string_view path;
   Handler handler;
+  bool takes_gltf = false;  // POST: as a body, beside JSON
 };
 
 // Whether `path` is one of the route's; its steps in the places of braces come back in `values`, if it is not

@@ -44,6 +44,19 @@ Response not_acceptable(const char* kinds) {
   return problem_response(Refusal{406, "not_acceptable", std::string("Accept must admit ") + kinds});
 }
 
+Response not_of_this_kind(bool takes_gltf) {
+  Response response = problem_response(
+      Refusal{415, "unsupported_media_type",
+              takes_gltf ? "Content-Type must be application/json, model/gltf-binary, model/gltf+json, "
+                           "application/octet-stream or left out"
+                         : "this request takes JSON: Content-Type must be application/json, "
+                           "application/octet-stream or left out"});
+  response.headers.emplace_back("Accept-Post", takes_gltf
+                                                   ? "application/json, model/gltf-binary, model/gltf+json"
+                                                   : "application/json");
+  return response;
+}
+
 Response denied(Grants::Denied reason, Count wanted, Count most) {
   switch (reason) {
     case Grants::Denied::full:
@@ -205,6 +218,7 @@ Response GeometryHandlers::verify(Request& request) {
 }
 
 Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
+  if (proto::is_glb(request.body)) return not_of_this_kind(false);  // its head did not say so
   if (kind == proto::CurveTaskKind::refine)
     return granted(request, [&](const Budget& budget) { return refined(request, decode_curves, budget); });
   if (!accepts_json(request)) return not_acceptable("application/json");
@@ -244,7 +258,7 @@ Response GeometryHandlers::spectrum(Request& request, std::string_view route) {
   });
 }
 
-std::optional<Response> screen_body(const Request& head) {
+std::optional<Response> screen_body(const Request& head, bool takes_gltf) {
   const std::string* encoding = head.header("content-encoding");
   if (encoding != nullptr && *encoding != "identity") {
     // A bomb of a few kilobytes would inflate to gigabytes.
@@ -253,13 +267,10 @@ std::optional<Response> screen_body(const Request& head) {
     response.headers.emplace_back("Accept-Encoding", "identity");
     return response;
   }
-  if (body_kind(head)) return std::nullopt;
-  Response response =
-      problem_response(Refusal{415, "unsupported_media_type",
-                               "Content-Type must be application/json, model/gltf-binary, model/gltf+json, "
-                               "application/octet-stream or left out"});
-  response.headers.emplace_back("Accept-Post", "application/json, model/gltf-binary, model/gltf+json");
-  return response;
+  const auto kind = body_kind(head);
+  const bool gltf = kind == proto::BodyKind::glb || kind == proto::BodyKind::gltf;
+  if (!kind || (gltf && !takes_gltf)) return not_of_this_kind(takes_gltf);
+  return std::nullopt;
 }
 
 bool self_test() {

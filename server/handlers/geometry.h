@@ -44,7 +44,7 @@ class GeometryHandlers {
 };
 
 // What a request's head already tells about its body: a refusal (415), or nothing.
-std::optional<Response> screen_body(const Request& head);
+std::optional<Response> screen_body(const Request& head, bool takes_gltf);
 
 // Sends a small mesh through decoding, refinement and the oracle; false when anything is not as it must be.
 bool self_test();

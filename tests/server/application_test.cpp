@@ -226,6 +226,21 @@ TEST(Application, gives_everything_back_after_each_answer) {
   }
   expect_whole("a client that left");
 }
+TEST(Application, takes_no_gltf_where_curves_are_asked_about) {
+  const RunningApplication server;
+  const std::string glb("glTF\x02\0\0\0\x0c\0\0\0", 12);
+  for (const char* path :
+       {"/v1/evaluate", "/v1/curves/refine", "/v1/curves/evaluate", "/v1/curves/insert-knot",
+        "/v1/curves/remove-knot", "/v1/curves/convert", "/v1/curves/measure"}) {
+    for (const char* type :
+         {"", "Content-Type: model/gltf-binary\r\n", "Content-Type: model/gltf+json\r\n"}) {
+      const RawResponse response = ask(server.port, post(path, glb, type));
+      EXPECT_EQ(response.status, 415) << path << type;
+      EXPECT_EQ(response.header("accept-post"), "application/json") << path << type;
+    }
+  }
+  EXPECT_EQ(ask(server.port, post("/v1/refine", glb, "Content-Type: model/gltf-binary\r\n")).status, 400);
+}
 TEST(Application, tells_the_time_it_took_in_a_header_only) {
   const RunningApplication server;
   for (const char* path :
