@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <string>
 
 #include "server/application.h"
 #include "server/housekeeper.h"
 #include "server/log.h"
-#include "server/transport/quota.h"
+#include "server/transport/body.h"
 #include "server/transport/transport.h"
 
 namespace subdivd::server {
@@ -45,12 +46,13 @@ struct MemoryShares {
   Count bodies = 0, work = 0;
 };
 
-// The program, its threads and their buffers, measured under load.
-constexpr Count kOwn = Count{24} << 20;
+// The program, its threads and what they read without asking, measured under load.
+Count own_bytes(const Config& config) { return (Count{20} << 20) + config.threads * kFreeBody; }
 
-MemoryShares share_out(Count bytes) {
+MemoryShares share_out(const Config& config) {
+  const Count bytes = config.max_memory_bytes;
   // Of very little memory, half is for requests.
-  const Count shared = std::max(bytes / 2, bytes - std::min(bytes, kOwn));
+  const Count shared = std::max(bytes / 2, bytes - std::min(bytes, own_bytes(config)));
   return {shared / 4, shared - shared / 4};
 }
 
@@ -68,7 +70,8 @@ std::string url_of(const Config& config, int port) {
 }
 
 // Everything that is taken and given back, as SIGUSR1 puts it into the log: idle, all of it is free.
-std::string state_line(const Application& application, const Quota& bodies, const Transport& transport) {
+std::string state_line(const Application& application, const RequestMemory& bodies,
+                       const Transport& transport) {
   const Grants::State work = application.grants().state();
   const Transport::State state = transport.state();
   std::string line = "state";
@@ -87,14 +90,14 @@ std::string state_line(const Application& application, const Quota& bodies, cons
   return line;
 }
 
-Housekeeper::Use use_of(const Application& application, const Quota& bodies) {
+Housekeeper::Use use_of(const Application& application, const RequestMemory& bodies) {
   const Grants::State work = application.grants().state();
   return {(work.bytes - work.free_bytes) + (bodies.total() - bodies.free()), work.granted};
 }
 
 // Until SIGTERM or SIGINT. Whoever sends another signal means well: neither kill(1) by habit nor a closed
 // terminal may end the daemon.
-void wait_for_the_end(const sigset_t& signals, const Application& application, const Quota& bodies,
+void wait_for_the_end(const sigset_t& signals, const Application& application, const RequestMemory& bodies,
                       const Transport& transport) {
   for (;;) {
     int received = 0;
@@ -105,13 +108,27 @@ void wait_for_the_end(const sigset_t& signals, const Application& application, c
   }
 }
 
+// Until no request is in flight, the time for that is over, or a second SIGTERM or SIGINT wants it no longer.
+bool wait_until_idle(Transport& transport, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kSlice{50};
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int signal : {SIGTERM, SIGINT}) sigaddset(&ending, signal);
+  const timespec at_once{};
+  while (!transport.wait_until_idle(kSlice))
+    if (std::chrono::steady_clock::now() >= deadline || sigtimedwait(&ending, nullptr, &at_once) > 0)
+      return false;
+  return true;
+}
+
 // False when a thread goes on that cannot be stopped: the process then has to end without it.
 bool drain(const Config& config, Application& application, Transport& transport) {
   log_info("draining");
   application.begin_drain();
   transport.begin_drain();
-  if (!transport.wait_until_idle(milliseconds(config.drain_seconds)))
-    log_warning("the time for draining is over: cancelling what still runs");
+  if (!wait_until_idle(transport, milliseconds(config.drain_seconds)))
+    log_warning("not waiting any longer: cancelling what still runs");
   const bool stopped = transport.stop(kStopPatience);
   if (!stopped) log_warning("what still runs cannot be cancelled: ending without it");
   log_info("ended");
@@ -120,32 +137,44 @@ bool drain(const Config& config, Application& application, Transport& transport)
 
 }  // namespace
 
-int run(const Config& config) {
+namespace {
+
+int serve(const Config& config) {
   // Threads inherit the mask, so the signals wait for sigwait and interrupt nothing.
   const sigset_t signals = handled_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   tune_allocator();
   signal(SIGPIPE, SIG_IGN);  // a closed log must not end the process
   start_log(config.log_level);
-  const MemoryShares shares = share_out(config.max_memory_bytes);
-  Quota bodies(shares.bodies);
+  const MemoryShares shares = share_out(config);
+  RequestMemory bodies(shares.bodies);
   Application application(config, shares.work);
   if (!application.prepare()) log_error("the self-test against OpenSubdiv failed: /readyz says no");
-  TransportOptions options = transport_options(config);
-  options.max_body_bytes = std::min(options.max_body_bytes, bodies.total());
-  Transport transport(options, application, bodies);
+  Transport transport(transport_options(config), application, bodies);
   if (auto started = transport.start(); !started) {
     std::cerr << "subdivd: " << started.error().message << std::endl;
     return 1;
   }
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
-  const Housekeeper housekeeper([&] { return use_of(application, bodies); },
-                                {kOwn, std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
+  const Housekeeper housekeeper(
+      [&] { return use_of(application, bodies); },
+      {own_bytes(config), std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
   wait_for_the_end(signals, application, bodies, transport);
   const bool stopped = drain(config, application, transport);
   // A reader of the log that has stalled keeps the writing thread for ever: leave without it.
   if (!finish_log(kLogPatience) || !stopped) std::_Exit(0);
   return 0;
+}
+
+}  // namespace
+
+int run(const Config& config) {
+  try {
+    return serve(config);
+  } catch (const std::exception&) {  // while starting: later, every thread catches what it throws
+    std::cerr << "subdivd: the system has no memory or no threads to start with" << std::endl;
+    return 1;
+  }
 }
 
 }  // namespace subdivd::server

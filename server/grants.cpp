@@ -41,13 +41,16 @@ bool Grants::has_place(Lane lane, Clock::time_point now) const {
 
 std::variant<std::shared_ptr<Grants::Grant>, Grants::Denied> Grants::enter(
     const Wish& wish, Clock::time_point deadline, const std::atomic<bool>* cancelled) {
-  std::unique_lock lock(mutex_);
   const Lane lane = wish.lane == Lane::small && wish.bytes <= most_small_bytes_ ? Lane::small : Lane::large;
+  // Made before the lock and before anything is taken: its destructor locks, and gives back what it has.
+  std::shared_ptr<Grant> grant(new Grant(*this, lane));
+  std::unique_lock lock(mutex_);
   Pool& pool = this->pool(lane);
   if (wish.bytes > pool.bytes) return Denied::too_large;
   const auto fits = [&] { return wish.bytes <= pool.free_bytes && has_place(lane, Clock::now()); };
   if (!pool.waiting.empty() || !fits()) {
-    if (small_.waiting.size() + large_.waiting.size() >= max_waiting_) return Denied::full;
+    // One that comes again has waited before, and has been computed in part.
+    if (wish.bytes == 0 && pool.waiting.size() >= max_waiting_) return Denied::full;
     const std::uint64_t number = next_number_++;
     pool.waiting.push_back(number);
     const auto my_turn = [&] { return pool.waiting.front() == number && fits(); };
@@ -63,8 +66,10 @@ std::variant<std::shared_ptr<Grants::Grant>, Grants::Denied> Grants::enter(
     changed_.notify_all();  // the next in line may find its turn come
     if (denied) return *denied;
   }
-  std::shared_ptr<Grant> grant(new Grant(*this, lane, wish.bytes, Clock::now()));
   pool.running.push_back(grant.get());
+  grant->has_place_ = true;
+  grant->began_ = Clock::now();
+  grant->bytes_ = wish.bytes;
   pool.free_bytes -= wish.bytes;
   ++granted_;
   return grant;
@@ -86,6 +91,12 @@ void Grants::Grant::keep_only(Count bytes) {
     if (bytes < bytes_) {
       grants_.pool(lane_).free_bytes += bytes_ - bytes;
       bytes_ = bytes;
+    }
+    // A reader's slowness must not keep those waiting who come with small requests.
+    if (lane_ == Lane::small && bytes_ <= grants_.large_.free_bytes) {
+      grants_.small_.free_bytes += bytes_;
+      grants_.large_.free_bytes -= bytes_;
+      lane_ = Lane::large;
     }
   }
   grants_.changed_.notify_all();

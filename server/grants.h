@@ -30,7 +30,7 @@ class Grants {
   struct Shares {
     std::size_t places = 1;        // large requests computed at once, a thread each
     std::size_t small_places = 2;  // small ones beside them
-    std::size_t max_waiting = 32;  // in both lanes together
+    std::size_t max_waiting = 32;  // in each lane
     Count bytes = 0;               // of memory
   };
 
@@ -56,17 +56,16 @@ class Grants {
 
    private:
     friend class Grants;
-    Grant(Grants& grants, Lane lane, Count bytes, Clock::time_point began)
-        : grants_(grants), lane_(lane), bytes_(bytes), began_(began) {}
+    Grant(Grants& grants, Lane lane) : grants_(grants), lane_(lane) {}
 
     Grants& grants_;
-    const Lane lane_;
     // Guarded by Grants::mutex_.
-    Count bytes_;       // taken from the pool
+    Lane lane_;
+    Count bytes_ = 0;   // taken from the pool
     Count asked_ = 0;   // by take(), in all
     Count wanted_ = 0;  // that, and what was refused last
-    bool has_place_ = true;
-    const Clock::time_point began_;
+    bool has_place_ = false;
+    Clock::time_point began_{};
   };
 
   explicit Grants(const Shares& shares);

@@ -58,7 +58,8 @@ void Housekeeper::run() {
     const std::uint64_t now = unused(use);
     stuck = std::min(stuck, now);
     const bool worth_it =
-        use.bytes == 0 ? now > slack_.idle && use.requests != trimmed_after : now > stuck + slack_.busy;
+        use.bytes == 0 ? now > slack_.idle && (use.requests != trimmed_after || now > stuck + slack_.idle)
+                       : now > stuck + slack_.busy;
     if (!worth_it) continue;
     ::malloc_trim(0);
     const Use then = use_();

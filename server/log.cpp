@@ -56,8 +56,9 @@ void start_log(const std::string& level) {
                                                        spdlog::thread_pool(),
                                                        spdlog::async_overflow_policy::overrun_oldest);
   logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
-  logger->set_error_handler(
-      [](const std::string&) {});  // the default one writes to the stream that just failed
+  // The default one writes to the stream that just failed. A line that failed counts as written: nobody waits
+  // for it.
+  logger->set_error_handler([](const std::string&) { ++written; });
   logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(std::move(logger));
 }

@@ -8,11 +8,6 @@
 namespace subdivd::server {
 namespace {
 
-// An announced length is believed, and memory reserved for all of it, once this much has come; of little
-// memory less, so that many bodies that wait for all of theirs do not take it from each other.
-constexpr std::uint64_t kBelieved = 1 << 20, kBelievedShare = 128;
-// What a body without announced length begins with.
-constexpr std::uint64_t kFirstRoom = 64 * 1024;
 constexpr std::size_t kReadBytes = 64 * 1024;
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
 
@@ -20,85 +15,113 @@ Refusal no_room() { return overloaded("the bodies of other requests fill the mem
 
 Refusal incomplete(const char* detail) { return {400, "incomplete_body", detail}; }
 
-std::optional<Refusal> read_length(ClientSocket& socket, std::uint64_t length, const BodyLimits& limits,
-                                   BodyBuffer& buffer, std::string& body) {
-  Pace pace(limits.patience);
-  char piece[kReadBytes];
-  const std::uint64_t first = std::clamp(buffer.most() / kBelievedShare, kFirstRoom, kBelieved);
-  const auto reserve = [&](std::uint64_t bytes) {
-    const bool reserved = buffer.reserve(bytes, Clock::now() + limits.patience);
-    pace = Pace(limits.patience);  // waiting for others was not the client's doing
+// Reads into a buffer that grows. Waiting for the memory of others is not the client's doing: it does not
+// count as its time.
+class Reader {
+ public:
+  Reader(ClientSocket& socket, const BodyLimits& limits, const std::atomic<bool>* cancelled,
+         BodyBuffer& buffer, std::string& body)
+      : socket_(socket),
+        limits_(limits),
+        cancelled_(cancelled),
+        buffer_(buffer),
+        body_(body),
+        pace_(limits.patience) {}
+
+  std::optional<Refusal> read_length(std::uint64_t length);
+  std::optional<Refusal> read_chunked();
+
+ private:
+  bool reserve(std::uint64_t bytes) {
+    if (bytes <= buffer_.reserved()) return true;
+    const bool reserved = buffer_.reserve(bytes, Clock::now() + limits_.patience, cancelled_);
+    pace_ = Pace(limits_.patience);
     return reserved;
-  };
-  if (!reserve(std::min(length, first))) return no_room();
-  while (body.size() < length) {
-    if (body.size() == buffer.reserved() && !reserve(length)) return no_room();
-    const std::uint64_t room = buffer.reserved() - body.size();
-    const std::size_t count = socket.read(piece, std::min<std::uint64_t>(room, kReadBytes), pace.deadline());
+  }
+  std::optional<Refusal> add_piece(std::string_view piece, std::uint64_t chunk_left);
+
+  ClientSocket& socket_;
+  const BodyLimits& limits_;
+  const std::atomic<bool>* cancelled_;
+  BodyBuffer& buffer_;
+  std::string& body_;
+  Pace pace_;
+};
+
+std::optional<Refusal> Reader::read_length(std::uint64_t length) {
+  char piece[kReadBytes];
+  if (!reserve(std::min(length, kFreeBody))) return no_room();
+  while (body_.size() < length) {
+    if (body_.size() == buffer_.reserved() && !reserve(length)) return no_room();
+    const std::uint64_t room = buffer_.reserved() - body_.size();
+    const std::size_t count =
+        socket_.read(piece, std::min<std::uint64_t>(room, kReadBytes), pace_.deadline());
     if (count == 0) return incomplete("the body ended early or came too slowly");
-    pace.moved(count);
-    body.append(piece, count);
+    pace_.moved(count);
+    body_.append(piece, count);
   }
   return std::nullopt;
 }
 
-std::optional<Refusal> add_piece(std::string_view piece, std::uint64_t chunk_left, const BodyLimits& limits,
-                                 BodyBuffer& buffer, std::string& body) {
-  const std::uint64_t allowed = limits.bytes;
-  const std::uint64_t size = body.size() + piece.size();
+std::optional<Refusal> Reader::add_piece(std::string_view piece, std::uint64_t chunk_left) {
+  const std::uint64_t size = body_.size() + piece.size();
   // How large it would have become in the end is not known.
-  if (size > allowed || chunk_left > allowed - size) return body_too_large(0, allowed);
-  if (size > buffer.reserved()) {
-    const std::uint64_t doubled = std::max(kFirstRoom, 2 * buffer.reserved());
-    if (!buffer.reserve(std::max(size, std::min(doubled, allowed)), Clock::now() + limits.patience))
-      return no_room();
-  }
-  body.append(piece);
+  if (size > limits_.bytes || chunk_left > limits_.bytes - size) return body_too_large(0, limits_.bytes);
+  if (size > buffer_.reserved() && !reserve(buffer_.next_room(size, limits_.bytes))) return no_room();
+  body_.append(piece);
   return std::nullopt;
 }
 
-std::optional<Refusal> read_chunked(ClientSocket& socket, const BodyLimits& limits, BodyBuffer& buffer,
-                                    std::string& body) {
-  // Only the body's own bytes buy time: extensions and chunks of one byte do not.
-  Pace pace(limits.patience);
+std::optional<Refusal> Reader::read_chunked() {
   ChunkedBody chunks;
   for (;;) {
-    const ChunkedBody::Step step = chunks.read(socket.buffered());
+    const ChunkedBody::Step step = chunks.read(socket_.buffered());
     if (!step.data.empty()) {
-      if (auto refusal = add_piece(step.data, chunks.chunk_left(), limits, buffer, body)) return refusal;
-      pace.moved(step.data.size());
+      if (auto refusal = add_piece(step.data, chunks.chunk_left())) return refusal;
+      pace_.moved(step.data.size());  // only these buy time: extensions and chunks of one byte do not
     }
-    socket.consume(step.used);
+    socket_.consume(step.used);
     if (chunks.state() == ChunkedBody::State::done) return std::nullopt;
     if (chunks.state() == ChunkedBody::State::malformed)
       return incomplete("the body's chunks are not framed as RFC 9112, 7.1 has it");
-    if (Clock::now() >= pace.deadline() ||
-        (socket.buffered().empty() &&
-         socket.fill(kReadBytes, pace.deadline()) != ClientSocket::Outcome::ready))
+    if (Clock::now() >= pace_.deadline() ||
+        (socket_.buffered().empty() &&
+         socket_.fill(kReadBytes, pace_.deadline()) != ClientSocket::Outcome::ready))
       return incomplete("the body ended early or came too slowly");
   }
 }
 
 }  // namespace
 
-bool BodyBuffer::reserve(std::uint64_t bytes, Clock::time_point deadline) {
+bool BodyBuffer::reserve(std::uint64_t bytes, Clock::time_point deadline,
+                         const std::atomic<bool>* cancelled) {
   if (bytes <= reserved_) return true;
-  Quota::Lease& next = leases_[1 - current_];
-  if (!next.grow_to(bytes, deadline, nullptr)) return false;
+  const bool small = bytes <= kFreeBody, medium = bytes <= memory_.most_medium();
+  if (!small) {
+    Quota::Lease& lease = medium ? medium_ : large_;
+    // One that waited for more of what it has already could wait for itself.
+    if (lease.bytes() > 0 ? !lease.grow_to(bytes) : !lease.grow_to(bytes, deadline, cancelled)) return false;
+  }
   // reserve() of a string that holds something makes room for twice as much as it did, wanted or not.
   std::string larger;
   larger.reserve(bytes);
   larger.append(body_);
   body_ = std::move(larger);
-  leases_[current_].release();
-  current_ = 1 - current_;
+  if (!medium) medium_.release();
   reserved_ = bytes;
   return true;
 }
 
+std::uint64_t BodyBuffer::next_room(std::uint64_t bytes, std::uint64_t most) const {
+  for (const std::uint64_t room : {kFreeBody, memory_.most_medium()})
+    if (bytes <= room) return std::min(room, most);
+  return most;  // only what is written to takes real memory
+}
+
 void BodyBuffer::release() {
   std::string().swap(body_);
-  for (Quota::Lease& lease : leases_) lease.release();
+  medium_.release();
+  large_.release();
   reserved_ = 0;
 }
 
@@ -109,14 +132,14 @@ Refusal body_too_large(std::uint64_t announced, std::uint64_t allowed) {
 }
 
 std::optional<Refusal> read_body(ClientSocket& socket, const Head& head, const BodyLimits& limits,
-                                 BodyBuffer& buffer, std::string& body) {
+                                 const std::atomic<bool>* cancelled, BodyBuffer& buffer, std::string& body) {
   if (head.expects_continue && !socket.holds_unread()) {
     Pace pace(limits.patience);
     if (!socket.write(kContinue, pace)) return incomplete("the client left before it sent the body");
   }
-  return head.framing == Head::Framing::chunked
-             ? read_chunked(socket, limits, buffer, body)
-             : read_length(socket, head.content_length, limits, buffer, body);
+  Reader reader(socket, limits, cancelled, buffer, body);
+  return head.framing == Head::Framing::chunked ? reader.read_chunked()
+                                                : reader.read_length(head.content_length);
 }
 
 }  // namespace subdivd::server

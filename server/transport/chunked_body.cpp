@@ -30,6 +30,7 @@ ChunkedBody::At ChunkedBody::after(char c) {
   switch (at_) {
     case At::size_start:
       left_ = 0;
+      size_digits_ = 0;
       return hex_digit(c) < 0 ? At::malformed : after_size(c);
     case At::size:
       return after_size(c);
@@ -54,7 +55,8 @@ ChunkedBody::At ChunkedBody::after(char c) {
 // chunk-size = 1*HEXDIG
 ChunkedBody::At ChunkedBody::after_size(char c) {
   if (const int digit = hex_digit(c); digit >= 0) {
-    if (left_ > std::numeric_limits<std::uint64_t>::max() / 16) return At::malformed;
+    if (left_ > std::numeric_limits<std::uint64_t>::max() / 16 || ++size_digits_ > kMaxSizeDigits)
+      return At::malformed;
     left_ = left_ * 16 + static_cast<std::uint64_t>(digit);
     return At::size;
   }

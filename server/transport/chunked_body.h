@@ -15,6 +15,7 @@ class ChunkedBody {
   // us.
   static constexpr std::size_t kMaxExtensionBytes = 4 * 1024;
   static constexpr std::size_t kMaxTrailerBytes = 8 * 1024;
+  static constexpr std::size_t kMaxSizeDigits = 16;  // of one chunk, leading zeros included
 
   enum class State { reading, done, malformed };
   struct Step {
@@ -55,6 +56,7 @@ class ChunkedBody {
 
   At at_ = At::size_start;
   std::uint64_t left_ = 0;
+  std::size_t size_digits_ = 0;
   std::size_t extension_bytes_ = 0, trailer_bytes_ = 0;
   bool last_ = false;  // the chunk of size 0
 };

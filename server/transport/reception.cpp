@@ -23,7 +23,10 @@ constexpr std::chrono::milliseconds kLingerTime{1000};
 constexpr std::chrono::milliseconds kHeadsOwnTime{1000};
 constexpr std::chrono::milliseconds kFullRetry{10};
 constexpr std::chrono::milliseconds kQueueTick{100};
-constexpr std::chrono::milliseconds kLongestSleep{60'000};
+// Workers queue requests, too, and those that have waited too long are refused from here.
+constexpr std::chrono::milliseconds kLongestSleep{1000};
+// Of a head that has begun when the daemon is to end.
+constexpr std::chrono::milliseconds kDrainingHead{1000};
 
 }  // namespace
 
@@ -82,7 +85,7 @@ std::chrono::milliseconds Reception::patience(Phase phase) const {
     case Phase::silent:
       return limits_.silence;
     case Phase::head:
-      return limits_.head;
+      return draining_ ? std::min(limits_.head, kDrainingHead) : limits_.head;
     case Phase::idle:
       return limits_.idle;
     default:

@@ -1,5 +1,6 @@
 #include "server/transport/transport.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -29,17 +30,17 @@ constexpr std::chrono::milliseconds kStay{1};
 
 class Transport::Impl {
  public:
-  Impl(TransportOptions options, Service& service, Quota& memory)
+  Impl(TransportOptions options, Service& service, RequestMemory& memory)
       : options_(std::move(options)),
         context_{service,
                  watcher_,
                  memory,
                  draining_,
-                 {options_.max_body_bytes, options_.read_timeout},
+                 {std::min(options_.max_body_bytes, memory.most_body()), options_.read_timeout},
                  options_.idle_timeout,
                  options_.max_requests_per_connection},
         lanes_(service, options_.queue_timeout),
-        reception_(lanes_, memory, census_) {}
+        reception_(lanes_, memory.heads, census_) {}
 
   ~Impl() {
     end();
@@ -190,7 +191,7 @@ class Transport::Impl {
   std::vector<std::thread> workers_;
 };
 
-Transport::Transport(TransportOptions options, Service& service, Quota& memory)
+Transport::Transport(TransportOptions options, Service& service, RequestMemory& memory)
     : impl_(std::make_unique<Impl>(std::move(options), service, memory)) {}
 Transport::~Transport() = default;
 Result<void> Transport::start() { return impl_->start(); }

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "server/transport/quota.h"
+#include "server/transport/request_memory.h"
 #include "server/transport/service.h"
 
 namespace subdivd::server {
@@ -17,9 +17,9 @@ namespace subdivd::server {
 struct TransportOptions {
   std::string host = "127.0.0.1";
   int port = 0;                                     // 0: any free one, see Transport::port()
-  std::size_t threads = 64;                         // requests read, answered and sent at once
+  std::size_t threads = 128;                        // requests read, answered and sent at once
   std::size_t max_connections = 0;                  // 0: as many as descriptors allow, 10,000 at most
-  std::uint64_t max_body_bytes = 256u << 20;        // of one request
+  std::uint64_t max_body_bytes = 256u << 20;        // of one request; memory.most_body() at most
   std::chrono::milliseconds read_timeout{30'000};   // see Pace (client_socket.h)
   std::chrono::milliseconds idle_timeout{75'000};   // between two requests of one connection, as announced
   std::chrono::milliseconds idle_grace{5'000};      // more than was announced: for requests on their way
@@ -29,8 +29,8 @@ struct TransportOptions {
 
 class Transport {
  public:
-  // `service` and `memory`, from which bodies are buffered, must outlive the transport.
-  Transport(TransportOptions options, Service& service, Quota& memory);
+  // `service` and `memory`, from which heads and bodies are buffered, must outlive the transport.
+  Transport(TransportOptions options, Service& service, RequestMemory& memory);
   ~Transport();  // as stop(), but waits for as long as it takes
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;

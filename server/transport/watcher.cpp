@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kInterval{25};
 // Most requests are answered before anyone has to ask whether their clients still wait.
-constexpr std::chrono::milliseconds kProbeAfter{50};
+constexpr std::chrono::milliseconds kProbeAfter{50}, kProbeAgain{1000};
 constexpr std::string_view kProbe = "HTTP/1.1 100 Continue\r\n\r\n";
 
 }  // namespace
@@ -115,7 +115,7 @@ void Watcher::probe(Post& post) {
   if (!post.may_probe_ || Clock::now() - post.since_ < kProbeAfter) return;
   const ssize_t sent = ::send(post.fd_, kProbe.data(), kProbe.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (sent < 0) return;  // no room for it now, or a reset that the next look will see
-  post.may_probe_ = false;
+  post.since_ = Clock::now() + kProbeAgain - kProbeAfter;  // one that has half-closed may still leave
   // A part of it would spoil the answer. That takes a client which has ended its side and leaves a full
   // buffer of earlier answers unread.
   if (static_cast<std::size_t>(sent) < kProbe.size()) post.cut();

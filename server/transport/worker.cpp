@@ -107,7 +107,8 @@ Response Worker::respond(Connection& connection, BodyBuffer& buffer, bool& body_
       return refuse_safely(request, body_too_large(turn.head.content_length, context_.body.bytes));
     std::optional<Refusal> refusal;
     try {
-      refusal = read_body(connection.socket(), turn.head, context_.body, buffer, request.body);
+      refusal =
+          read_body(connection.socket(), turn.head, context_.body, request.cancelled, buffer, request.body);
     } catch (...) {
       refusal = refusal_of_exception();
     }

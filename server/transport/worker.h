@@ -18,7 +18,7 @@ namespace subdivd::server {
 struct WorkerContext {
   Service& service;
   Watcher& watcher;
-  Quota& memory;
+  RequestMemory& memory;
   const std::atomic<bool>& draining;
   BodyLimits body;
   std::chrono::milliseconds idle_timeout{};

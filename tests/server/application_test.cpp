@@ -46,7 +46,7 @@ struct RunningApplication {
     return ask(port, post("/v1/refine" + query, body, headers));
   }
   const Config config;
-  Quota bodies;
+  RequestMemory bodies;
   Application application;
   Transport transport;
   int port = 0;
@@ -320,7 +320,7 @@ TEST(Application, is_alive_and_ready) {
 }
 TEST(Application, is_alive_but_not_ready_before_the_self_test) {
   const Config config = quick_config();
-  Quota bodies(config.max_memory_bytes);
+  RequestMemory bodies(config.max_memory_bytes);
   Application application(config, config.max_memory_bytes);
   Transport transport(options_of(config), application, bodies);
   ASSERT_TRUE(transport.start().ok());

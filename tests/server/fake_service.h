@@ -127,7 +127,7 @@ struct RunningTransport {
     port = transport.port();
   }
   FakeService service;
-  Quota memory;
+  RequestMemory memory;
   Transport transport;
   int port = 0;
 };

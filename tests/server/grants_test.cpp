@@ -141,6 +141,34 @@ TEST(Grants, keep_an_answer_but_not_its_place) {
   }
   expect_whole(grants);
 }
+// 58 clients that did not read their small answers kept a tetrahedron waiting for half a minute.
+TEST(Grants, do_not_let_unread_answers_shut_the_small_lane) {
+  Grants grants(shares(1, 0));
+  std::vector<Outcome> answers;
+  for (int i = 0; i < 20; ++i) {
+    answers.push_back(grants.enter({Lane::small, 3 * kMiB}, Clock::now(), nullptr));
+    ASSERT_TRUE(granted(answers.back())) << i;
+    grant_of(answers.back()).keep_only(3 * kMiB);
+  }
+  EXPECT_EQ(grants.state().free_bytes, 20 * kMiB);
+  answers.clear();
+  expect_whole(grants);
+}
+TEST(Grants, do_not_let_large_requests_that_wait_turn_small_ones_away) {
+  Grants grants(shares(1, 1));
+  const auto large = grants.enter(kLarge, Clock::now(), nullptr);
+  std::thread waits([&] { (void)grants.enter(kLarge, Clock::now() + seconds(1), nullptr); });
+  while (grants.state().waiting == 0) std::this_thread::yield();
+  const auto small = grants.enter(kSmall, Clock::now(), nullptr);
+  EXPECT_TRUE(granted(grants.enter(kSmall, Clock::now() + seconds(30), nullptr)));
+  waits.join();
+}
+TEST(Grants, let_one_wait_again_that_was_short_of_memory) {
+  Grants grants(shares(1, 0));
+  const auto first = grants.enter(kLarge, Clock::now(), nullptr);
+  EXPECT_EQ(std::get<Denied>(grants.enter({Lane::large, kMiB}, Clock::now() + milliseconds(10), nullptr)),
+            Denied::too_late);
+}
 TEST(Grants, let_the_first_to_come_be_the_first_to_be_served) {
   Grants grants(shares(1, 10));
   auto first = grants.enter({Lane::large, 30 * kMiB}, Clock::now(), nullptr);

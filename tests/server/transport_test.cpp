@@ -18,7 +18,7 @@ TEST(Transport, refuses_a_port_that_is_taken) {
   TransportOptions options = quick_options();
   options.port = first.port;
   FakeService service;
-  Quota memory(1);
+  RequestMemory memory(1);
   Transport second(options, service, memory);
   EXPECT_FALSE(second.start().ok());
 }
