@@ -102,6 +102,20 @@ test('200 connections that stop within the body keep nobody waiting', async () =
   }
 });
 
+test('large bodies that are announced and not sent keep nobody waiting who sends a small one', async () => {
+  const slow = await Promise.all(Array.from({ length: 8 }, () => connected(daemon.port)));
+  try {
+    for (const socket of slow)
+      socket.write(Buffer.concat([head('POST', '/v1/refine', { 'Content-Length': 200 << 20 }), Buffer.alloc(1 << 20, ' ')]));
+    await pause(300);
+    await served(daemon.port);
+    const cookie = { Cookie: 'c'.repeat(1500) };
+    assert.equal((await get(daemon.port, '/livez', { headers: cookie })).status, 200);
+  } finally {
+    for (const socket of slow) socket.destroy();
+  }
+});
+
 test('200 connections that are silent after a request keep nobody waiting', async () => {
   const idle = await Promise.all(Array.from({ length: 200 }, () => connected(daemon.port)));
   try {
