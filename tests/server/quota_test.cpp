@@ -14,8 +14,9 @@ using std::chrono::seconds;
 
 const auto kNow = [] { return Quota::Clock::now(); };
 
-// old - exchange(old, new) gave back old - old: every answer kept what it had been predicted to take beyond
-// its size, and after some thousand requests nothing was free any more.
+// What was given back was the old size less the old size, since the new one had been stored before it was
+// read: every answer kept what it had been predicted to take beyond its size, and after some thousand
+// requests nothing was free any more.
 TEST(Quota, gets_back_what_a_lease_shrinks_by) {
   Quota quota(1000);
   Quota::Lease lease(quota);
