@@ -79,7 +79,8 @@ Result<void> grow(Vector& values, Count size, Work& work, typename Vector::value
   return {};
 }
 
-// What the allocator adds to a block, and to many small ones together.
+// What the allocator adds to a block, 8 bytes and a rounding up to 16: the mean over many. (For its small blocks
+// core/splines/growing_memory.h counts the most.)
 inline constexpr Count kBlockBytes = 16;
 
 }  // namespace subdivd::proto::gltf
