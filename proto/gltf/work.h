@@ -79,8 +79,7 @@ Result<void> grow(Vector& values, Count size, Work& work, typename Vector::value
   return {};
 }
 
-// What the allocator adds to a block, 8 bytes and a rounding up to 16: the mean over many. (For its small blocks
-// core/splines/growing_memory.h counts the most.)
+// What the allocator adds to a block in the mean: 8 bytes and a rounding up to 16. See growing_memory.h.
 inline constexpr Count kBlockBytes = 16;
 
 }  // namespace subdivd::proto::gltf
