@@ -1,10 +1,7 @@
 #include "proto/decode.h"
 
 #include <algorithm>
-#include <cfloat>
-#include <cmath>
 
-#include "core/mesh/repair.h"
 #include "proto/gltf/gltf.h"
 #include "proto/json/json.h"
 #include "proto/json/survey.h"

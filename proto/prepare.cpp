@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/mesh/creases.h"
 #include "core/mesh/repair.h"
 #include "core/mesh/scan.h"
 #include "proto/client_text.h"
@@ -100,17 +101,33 @@ Count rearranging_bytes(const ControlMesh& mesh, Count faces) {
   return 2 * numbers * sizeof(Index);
 }
 
+// Bytes of what check() makes of creases, to look for their edges (see are_edges()), and of corners
+// and holes, to find those that are given twice.
+Count checking_bytes(const ControlMesh& mesh) {
+  const Count points = mesh.point_count(), corners = mesh.face_vertex_indices.size();
+  constexpr Count kPair = sizeof(VertexPair) + sizeof(Index) + 2;
+  Count bytes = 0;
+  if (!mesh.crease_lengths.empty())
+    bytes = mesh.crease_indices.size() * kPair + (3 * (points + 1) + corners) * sizeof(Index);
+  if (!mesh.corner_indices.empty()) bytes = std::max(bytes, points);
+  if (!mesh.hole_indices.empty()) bytes = std::max(bytes, mesh.face_count());
+  return bytes;
+}
+
 Result<void> split_faces(ControlMesh& mesh, json::FaceHistory& history, const Budget& budget) {
   const std::vector<Index>& counts = mesh.face_vertex_counts;
   if (std::ranges::all_of(counts, [](Index count) { return count == 3; })) return {};
   Count corners = 0;
   for (const Index count : counts) corners += count;
-  // Whatever else is wrong with them, triangulate() says so.
-  if (corners == mesh.face_vertex_indices.size())
+  // Whatever else is wrong with them, triangulate() says so; where corners that are promised are not there it
+  // makes nothing but a sum for every face.
+  const bool fit = corners == mesh.face_vertex_indices.size();
+  if (fit)
     if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
   const Count triangles = corners - std::min(corners, 2 * Count{counts.size()});
-  if (auto taken = budget.take_memory(rearranging_bytes(mesh, triangles)); !taken) return taken;
-  history.counts = counts;
+  const Count bytes = fit ? rearranging_bytes(mesh, triangles) : (counts.size() + 1) * sizeof(Count);
+  if (auto taken = budget.take_memory(bytes); !taken) return taken;
+  if (fit) history.counts = counts;
   Result<std::vector<Index>> split = triangulate(mesh, budget);
   if (!split) return std::move(split).error();
   history.triangulated = std::move(*split);
@@ -145,6 +162,7 @@ Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceH
   ControlMesh& mesh = request.meshes[i];
   if (request.options.triangulate)
     if (auto split = split_faces(mesh, history, budget); !split) return split;
+  if (auto taken = budget.take_memory(checking_bytes(mesh)); !taken) return taken;
   // Most meshes need no repair, and are looked at once.
   Result<void> fine = mesh.check(budget);
   const bool repeats = !fine && fine.error().code == ErrorCode::not_a_triangle &&

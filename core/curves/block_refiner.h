@@ -31,7 +31,7 @@ class BlockRefiner {
   // Core points of the last level.
   Place count() const { return counts_[level_]; }
 
-  // All of them into `to`. Fails when one outgrows Real and when the budget is polled dry.
+  // All of them into `to`. Fails when one outgrows Real and when the budget says stop.
   Result<void> run(const Budget& budget, Real* to);
 
  private:

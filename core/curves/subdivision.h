@@ -77,7 +77,7 @@ template <class Real>
 Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& options);
 
 // `curves` must have passed check(). Fails for sizes (as predict_bytes, and too_large against
-// budget.max_bytes), when the budget is polled dry, and with out_of_range when a number does not fit into
+// budget.max_bytes), when the budget says stop, and with out_of_range when a number does not fit into
 // Real (1e39 in single precision; a tangent, or a point of a pinned curve's continuation, between -1e308 and
 // 1e308): no NaN or infinity is ever returned. The answer depends on the arguments alone, to the bit.
 // Takes about 150 KB beside the answer, or 2 KiB per unit of width when that is more.

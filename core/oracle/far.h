@@ -56,7 +56,7 @@ struct FarLevel {
 // Whether Far would take this mesh to this level: out_of_range (level), unsupported (no faces, or a point of
 // more faces than Far can count), too_large (counts that Far cannot number, more working memory than
 // budget.max_bytes: see far_mesh_bytes, or a call of Far that would take too long: see far_cost.h). Linear in
-// the size of the control mesh; stops when the budget is polled dry.
+// the size of the control mesh; stops when the budget says stop.
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget);
 // Bytes that verify() takes at its peak for Far, FarLevel<double> and the comparison, with limits and
 // normals; our own refine() comes on top. Measured, on the safe side: README.md. Of any mesh, checked or not,
@@ -71,7 +71,7 @@ Result<void> check_far_bytes(Count bytes, const Budget& budget);
 class FarMesh {
  public:
   // `mesh` must outlive it and have passed check(): Far checks nothing. Fails as check_far_size for level
-  // `deepest`, with unsupported for what Far refuses all the same, and when the budget is polled dry.
+  // `deepest`, with unsupported for what Far refuses all the same, and when the budget says stop.
   static Result<FarMesh> build(const ControlMesh& mesh, CreaseMethod crease_method, Index deepest,
                                const Budget& budget);
   FarMesh(FarMesh&&) noexcept;
@@ -80,7 +80,7 @@ class FarMesh {
 
   // To options.level, at most `deepest`, in one go; other levels play no part. options.crease_method must be
   // the one above. Fails with out_of_range for a number that Real cannot hold, with unsupported for what Far
-  // refuses, or when the budget is polled dry. Thrown std::bad_allocs pass through.
+  // refuses, or when the budget says stop. Thrown std::bad_allocs pass through.
   template <class Real>
   Result<FarLevel<Real>> refine(const RefineOptions& options, const Budget& budget);
 

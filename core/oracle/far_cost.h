@@ -45,7 +45,7 @@ struct FarLoad {
 };
 
 // `mesh` must have passed check(). Linear, in both memory and time. Fails with unsupported for a point of
-// more than kMostFacesOfAPoint faces or edges, and when the budget is polled dry.
+// more than kMostFacesOfAPoint faces or edges, and when the budget says stop.
 Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget);
 
 Picoseconds far_build_time(const FarLoad& load);

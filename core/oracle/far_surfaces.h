@@ -48,7 +48,7 @@ FarSurface far_control(const ControlPatch& patch);
 // One level more (or, with level 0, the same points and their limits), computed in Real. Refining Far's
 // answer again is what Far does itself: the finer grid has the same border and the same four corners. Fails
 // with out_of_range for a number that Real cannot hold, with unsupported for what Far refuses, or when the
-// budget is polled dry.
+// budget says stop.
 template <class Real>
 Result<FarSurface> far_refine_surface(const FarSurface& from, const FarSurfaceOptions& options,
                                       const Budget& budget);

@@ -41,6 +41,19 @@ double distance(std::span<const double> a, std::span<const double> b, bool ratio
   return result;
 }
 
+// Brought to the degree, and to start and end at its first and last point: nothing to do for most that were
+// joined before.
+Result<void> bring_to_ends(Spline& spline, Index degree, const Budget& budget) {
+  const bool there = spline.knots.front() == spline.begin() && spline.knots.back() == spline.end();
+  if (!there || spline.degree < degree) {
+    auto brought = elevate_degree(spline, degree - spline.degree, budget);
+    if (!brought) return std::move(brought).error();
+    spline = *std::move(brought);
+  }
+  spline.periodic = false;
+  return {};
+}
+
 }  // namespace
 
 Result<Spline> part(const Spline& spline, double from, double to) {
@@ -75,7 +88,7 @@ Result<std::array<Spline, 2>> split(const Spline& spline, double t) {
   return std::array<Spline, 2>{*std::move(before), *std::move(behind)};
 }
 
-Result<Spline> join(const Spline& first, const Spline& second, double gap, const Budget& budget) {
+Result<void> append(Spline& first, const Spline& second, double gap, const Budget& budget) {
   if (first.dimension() != second.dimension())
     return Error{ErrorCode::wrong_length,
                  "points of " + std::to_string(first.dimension()) + " and of " +
@@ -84,43 +97,44 @@ Result<Spline> join(const Spline& first, const Spline& second, double gap, const
                  0,
                  0};
   if (!(gap >= 0)) return Error{ErrorCode::out_of_range, "the gap must be 0 or more", {"gap"}, 0, 0};
-  auto one = part(first, first.begin(), first.end()), other = part(second, second.begin(), second.end());
-  if (!one) return std::move(one).error();
-  if (!other) return std::move(other).error();
   const Index degree = std::max(first.degree, second.degree);
-  for (auto* spline : {&one, &other}) {
-    *spline = elevate_degree(**spline, degree - (*spline)->degree, budget);
-    if (!*spline) return std::move(*spline).error();
-  }
-  if (one->rational || other->rational) {
-    make_rational(*one);
+  if (auto done = bring_to_ends(first, degree, budget); !done) return done;
+  auto other = elevate_degree(second, degree - second.degree, budget);
+  if (!other) return std::move(other).error();
+  other->periodic = false;
+  if (first.rational || other->rational) {
+    make_rational(first);
     make_rational(*other);
-    const double scale = one->points.back() / other->points[other->width - 1];
+    const double scale = first.points.back() / other->points[other->width - 1];
     for (double& x : other->points) x *= scale;
   }
-  const Index width = one->width;
-  const auto end = one->point(one->point_count() - 1), start = other->point(0);
-  if (const double apart = distance(end, start, one->rational); !(apart <= gap))
+  const Index width = first.width;
+  const auto end = first.point(first.point_count() - 1), start = other->point(0);
+  if (const double apart = distance(end, start, first.rational); !(apart <= gap))
     return Error{ErrorCode::out_of_range,
                  "the curves are " + std::to_string(apart) + " apart where they should meet; " +
                      std::to_string(gap) + " are allowed",
                  {},
                  0,
                  0};
-  Spline joined = *std::move(one);
-  const double shift = joined.end() - other->begin();
-  if (!std::isfinite(shift + other->end() - joined.begin()))
+  const double meeting = first.end(), shift = meeting - other->begin();
+  if (!std::isfinite(shift + other->end() - first.begin()))
     return Error{ErrorCode::out_of_range, "the parameters of the joined curve would be too large", {}, 0, 0};
-  for (Index k = 0; k < width; ++k) {
-    double& middle = joined.points[joined.points.size() - width + k];
-    middle = middle / 2 + other->points[k] / 2;
-  }
-  joined.points.insert(joined.points.end(), other->points.begin() + width, other->points.end());
-  joined.knots.pop_back();
-  const double meeting = joined.knots.back();
-  for (Count i = degree + 1; i < other->knots.size(); ++i)
-    joined.knots.push_back(std::max(meeting, other->knots[i] + shift));
-  if (auto fine = joined.check(); !fine) return std::move(fine).error();
+  double* const middle = first.points.data() + (first.points.size() - width);
+  for (Index k = 0; k < width; ++k) other->points[k] = middle[k] = middle[k] / 2 + other->points[k] / 2;
+  for (double& t : other->knots) t = std::max(meeting, t + shift);
+  std::fill_n(other->knots.begin(), degree + 1, meeting);
+  first.points.insert(first.points.end(), other->points.begin() + width, other->points.end());
+  first.knots.pop_back();
+  first.knots.insert(first.knots.end(), other->knots.begin() + degree + 1, other->knots.end());
+  // What is sound by itself is sound behind a sound curve that ends there; else the whole says what is wrong.
+  if (other->check() && first.point_count() < kMaxIndexCount - kMaxDegree - 1) return {};
+  return first.check();
+}
+
+Result<Spline> join(const Spline& first, const Spline& second, double gap, const Budget& budget) {
+  Spline joined = first;
+  if (auto done = append(joined, second, gap, budget); !done) return std::move(done).error();
   return joined;
 }
 

@@ -23,6 +23,10 @@ Result<std::array<Spline, 2>> split(const Spline& spline, double t);
 // the point in the middle joins them, so nothing moves further than gap / 2.
 Result<Spline> join(const Spline& first, const Spline& second, double gap, const Budget& budget);
 
+// The same in place, for many curves one after the other: takes time in proportion to the second as long as
+// the first has its degree or a higher one. After a failure the first is good for nothing.
+Result<void> append(Spline& first, const Spline& second, double gap, const Budget& budget);
+
 // The same curve run through backwards: the point at t is now at begin() + end() - t.
 Spline reversed(const Spline& spline);
 

@@ -30,7 +30,7 @@ class GrowingMemory {
   Count held_ = 0;
 };
 
-// What the system's allocator adds to every block.
+// The most that the system's allocator adds to a block: 8 bytes, rounded up to 16, and no block below 32.
 inline constexpr Count kBytesPerBlock = 32;
 
 }  // namespace subdivd

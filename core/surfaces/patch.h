@@ -101,7 +101,7 @@ template <class Real>
 Result<Count> predict_bytes(const ControlPatch& patch, const PatchOptions& options);
 
 // The grid after `level` steps. `patch` must have passed check(). Fails for sizes (as predict_bytes, and
-// too_large against budget.max_bytes), when the budget is polled dry, and with out_of_range when a number
+// too_large against budget.max_bytes), when the budget says stop, and with out_of_range when a number
 // does not fit into Real: no NaN or infinity is ever returned. Beyond the answer it holds the level below, a
 // quarter of the points. Depends on the arguments alone, to the bit.
 template <class Real>

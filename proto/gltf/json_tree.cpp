@@ -79,6 +79,7 @@ Json Json::raw(std::string text) {
 std::optional<Count> Json::integer() const {
   const Number* number = std::get_if<Number>(&value_);
   if (number == nullptr) return std::nullopt;
+  if (number->text == "-0") return 0;
   Count value = 0;
   const char* const end = number->text.data() + number->text.size();
   const auto [stop, error] = std::from_chars(number->text.data(), end, value);

@@ -79,7 +79,7 @@ Result<void> grow(Vector& values, Count size, Work& work, typename Vector::value
   return {};
 }
 
-// What the allocator adds to a block, and to many small ones together.
+// What the allocator adds to a block in the mean: 8 bytes and a rounding up to 16. See growing_memory.h.
 inline constexpr Count kBlockBytes = 16;
 
 }  // namespace subdivd::proto::gltf

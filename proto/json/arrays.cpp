@@ -165,7 +165,7 @@ bool read_sharpnesses(Cursor& cursor, std::vector<float>& out) {
     } else {
       double number = 0;
       if (!cursor.try_number(number)) return cursor.read_number(number, right, {elements.index()});
-      // USD writes 1e38 for infinite; what no float can hold is no less infinite.
+      // From kInfiniteSharpness on all are infinite, also USD's 1e38 and what no float can hold.
       out.push_back(static_cast<float>(std::clamp(number, -1e38, 1e38)));
     }
   }

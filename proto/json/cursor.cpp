@@ -11,6 +11,8 @@
 namespace subdivd::proto::json {
 namespace {
 
+// Of a string that nobody asked for: enough to name a member in a pointer.
+constexpr std::size_t kMostOfSkipped = 2 * kLongestClientText;
 constexpr std::ptrdiff_t kBytesPerPoll = 1 << 18;  // some milliseconds of reading
 
 std::string_view name_of_type(Type type) {
@@ -34,9 +36,18 @@ std::string_view name_of_type(Type type) {
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_hex_digit(char c) { return is_digit(c) || ((c | 0x20) >= 'a' && (c | 0x20) <= 'f'); }
+bool ends_value(char c) {
+  return c == ',' || c == ']' || c == '}' || c == ' ' || c == '\n' || c == '\r' || c == '\t';
+}
 
-// The end of the number that begins at p, as JSON writes numbers; null: there is none.
-const char* end_of_number(const char* p, const char* end) {
+struct NumberEnd {
+  const char* at;
+  bool whole;  // otherwise what stands at `at` belongs to no number
+};
+
+// The end of the number that begins at p, as JSON writes numbers, before what may stand behind a value.
+NumberEnd end_of_number(const char* p, const char* end) {
   const auto digits = [&] {
     const char* const first = p;
     while (p < end && is_digit(*p)) ++p;
@@ -46,14 +57,14 @@ const char* end_of_number(const char* p, const char* end) {
   if (p < end && *p == '0')
     ++p;
   else if (!digits())
-    return nullptr;
-  if (p < end && *p == '.' && (++p, !digits())) return nullptr;
+    return {p, false};
+  if (p < end && *p == '.' && (++p, !digits())) return {p, false};
   if (p < end && (*p == 'e' || *p == 'E')) {
     ++p;
     if (p < end && (*p == '+' || *p == '-')) ++p;
-    if (!digits()) return nullptr;
+    if (!digits()) return {p, false};
   }
-  return p;
+  return {p, p == end || ends_value(*p)};
 }
 
 // Of a number that no double can hold: is it too large, not too small? Decided by where its first digit
@@ -70,8 +81,9 @@ bool is_too_large(std::string_view token) {
     if (failure == std::errc::result_out_of_range) return !digits.starts_with('-');
   }
   // Before the point the first digit counts tens, behind it tenths; bodies are shorter than 2^40.
+  constexpr std::int64_t kLongest = std::int64_t{1} << 41;
   const std::int64_t before_point = first < point ? point - first : point + 1 - first;
-  return before_point > -exponent;
+  return exponent > -kLongest && before_point > -exponent;
 }
 
 // The number that is the whole token, correctly rounded; false: beyond a double.
@@ -347,8 +359,8 @@ Cursor::Ahead Cursor::look_ahead() {
 
 bool Cursor::try_number(double& out) {
   skip_space();
-  const char* const end = end_of_number(at_, end_);
-  if (end == nullptr) return false;
+  const auto [end, whole] = end_of_number(at_, end_);
+  if (!whole) return false;
   if (!convert_short(at_, end, out) &&
       !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out))
     return false;
@@ -361,8 +373,11 @@ bool Cursor::read_number(double& out, std::string_view right, Path below) {
   if (try_number(out)) return true;
   if (failed()) return false;
   if (type() != Type::number) return fail_type(right, std::move(below));
-  const char* const end = end_of_number(at_, end_);
-  if (end == nullptr) return fail_syntax(std::move(below));
+  const auto [end, whole] = end_of_number(at_, end_);
+  if (!whole) {
+    at_ = end;
+    return fail_syntax(std::move(below));
+  }
   return fail(ErrorCode::not_finite,
               in_quotes(std::string_view(at_, static_cast<std::size_t>(end - at_))) +
                   " is beyond what a double can hold; it must be " + std::string(right),
@@ -375,7 +390,7 @@ bool Cursor::try_index(std::uint32_t& out) {
   std::uint64_t value = 0;
   while (p < end_ && is_digit(*p) && value < kNoIndex)
     value = 10 * value + static_cast<std::uint64_t>(*p++ - '0');
-  const bool ends = p == end_ || !(is_digit(*p) || *p == '.' || *p == 'e' || *p == 'E');
+  const bool ends = p == end_ || ends_value(*p);
   const bool leading_zero = *at_ == '0' && p - at_ > 1;
   if (p > at_ && ends && !leading_zero) {
     if (value >= kNoIndex) return false;
@@ -434,6 +449,15 @@ const char* Cursor::check_character(const char* p) const {
   return nullptr;
 }
 
+// Stands before what is no character; one that the end of the body cuts is not wrong.
+bool Cursor::fail_character() {
+  const auto first = static_cast<unsigned char>(*at_);
+  const std::ptrdiff_t left = end_ - at_, whole = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (first >= 0xC2 && first < 0xF5 && left < whole && continues(at_ + 1, end_, static_cast<int>(left) - 1))
+    at_ = end_;
+  return fail_syntax();
+}
+
 bool Cursor::read_string(std::string_view& out) {
   if (type() != Type::string) return fail_type("a string");
   const char* const begin = ++at_;
@@ -450,7 +474,7 @@ bool Cursor::read_string(std::string_view& out) {
       ++at_;
     } else {
       const char* const next = check_character(at_);
-      if (next == nullptr) return fail_syntax();
+      if (next == nullptr) return fail_character();
       at_ = next;
     }
     if (at_ >= stop_ && !poll()) return false;
@@ -460,8 +484,10 @@ bool Cursor::read_string(std::string_view& out) {
 
 // A string with escapes, which begins at `begin`; the cursor stands on the first of them.
 bool Cursor::read_long_string(std::string_view& out, const char* begin) {
-  unescaped_.assign(begin, at_);
+  const std::size_t most = skipping_ ? kMostOfSkipped : std::string::npos;
+  unescaped_.assign(begin, std::min(static_cast<std::size_t>(at_ - begin), most));
   while (at_ < end_) {
+    if (unescaped_.size() > most) unescaped_.resize(most);
     const auto c = static_cast<unsigned char>(*at_);
     if (c == '"') {
       ++at_;
@@ -473,7 +499,7 @@ bool Cursor::read_long_string(std::string_view& out, const char* begin) {
       if (!read_escape()) return false;
     } else {
       const char* const next = c < 0x80 ? at_ + 1 : check_character(at_);
-      if (next == nullptr) return fail_syntax();
+      if (next == nullptr) return fail_character();
       unescaped_.append(at_, next);
       at_ = next;
     }
@@ -484,10 +510,12 @@ bool Cursor::read_long_string(std::string_view& out, const char* begin) {
 
 bool Cursor::read_escape() {
   const auto unit = [&](std::uint32_t& code) {  // \uXXXX
-    if (end_ - at_ < 6 || at_[0] != '\\' || at_[1] != 'u') return false;
-    const auto [last, failure] = std::from_chars(at_ + 2, at_ + 6, code, 16);
-    if (failure != std::errc() || last != at_ + 6) return false;
-    at_ += 6;
+    for (const char* const begin = at_; at_ < begin + 6; ++at_) {
+      if (at_ == end_) return false;
+      const bool fits = at_ == begin ? *at_ == '\\' : at_ == begin + 1 ? *at_ == 'u' : is_hex_digit(*at_);
+      if (!fits) return false;
+    }
+    std::from_chars(at_ - 4, at_, code, 16);
     return true;
   };
   static constexpr std::string_view kLetters = "\"\\/bfnrt", kMeanings = "\"\\/\b\f\n\r\t";
@@ -532,6 +560,13 @@ bool Cursor::read_word(std::span<const std::string_view> valid, std::size_t& out
 }
 
 bool Cursor::skip(std::size_t depth_left) {
+  const bool before = std::exchange(skipping_, true);
+  const bool fine = skip_value(depth_left);
+  skipping_ = before;
+  return fine;
+}
+
+bool Cursor::skip_value(std::size_t depth_left) {
   if (failed()) return false;
   // A body of nothing but "[" would otherwise use up our stack.
   if (depth_left == 0) return fail(ErrorCode::too_large, "arrays and objects are nested too deeply");
@@ -547,7 +582,7 @@ bool Cursor::skip(std::size_t depth_left) {
     case Type::array: {
       ++at_;
       for (Elements all(*this); all.next();)
-        if (!skip(depth_left - 1)) return blame(all.index());
+        if (!skip_value(depth_left - 1)) return blame(all.index());
       return !failed();
     }
     case Type::object: {
@@ -555,7 +590,7 @@ bool Cursor::skip(std::size_t depth_left) {
       std::string_view name;
       for (Members all(*this); all.next(name);) {
         std::string kept = client_text(name);
-        if (!skip(depth_left - 1)) return blame(std::move(kept));
+        if (!skip_value(depth_left - 1)) return blame(std::move(kept));
       }
       return !failed();
     }

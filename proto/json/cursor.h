@@ -163,6 +163,8 @@ class Cursor {
   bool read_literal(std::string_view literal);
   bool read_long_string(std::string_view& out, const char* begin);
   bool read_escape();
+  bool fail_character();
+  bool skip_value(std::size_t depth_left);
   const char* check_character(const char* p) const;
 
   const char* const begin_;
@@ -171,6 +173,7 @@ class Cursor {
   const char* stop_;  // where the budget is to be polled next
   const Budget& budget_;
   std::string unescaped_;
+  bool skipping_ = false;  // of strings with escapes no more is kept than pointers show
   std::optional<Error> error_;
   Path path_;
 };

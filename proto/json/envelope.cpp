@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -14,22 +15,29 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Edges of the control mesh. The number of refined points tells it without finding every edge again, which
-// would take longer than writing the answer; 0 points: there is no refined mesh.
-std::optional<Count> edge_count(const ControlMesh& mesh, Index level, Count refined_points) {
+// would take longer than writing the answer; 0 points: there is no refined mesh. Nothing when they cannot be
+// numbered.
+Result<std::optional<Count>> edge_count(const ControlMesh& mesh, Index level, Count refined_points,
+                                        const Budget& budget) {
   if (level > 0 && refined_points > 0) {
     const Count on_edge = (Count{1} << level) - 1;  // points inside each
     const Count without = refined_counts(mesh.point_count(), 0, mesh.face_count(), level).vertices;
-    return (refined_points - without) / on_edge;
+    return std::optional((refined_points - without) / on_edge);
   }
-  const auto size = predict_size<float>(mesh, {.level = 0});
-  if (!size) return {};
-  return size->counts.edges;
+  Budget counting = budget;
+  counting.max_bytes = std::numeric_limits<Count>::max();  // no mesh comes out
+  const auto size = predict_size<float>(mesh, {.level = 0}, counting);
+  if (size) return std::optional(size->counts.edges);
+  if (size.error().code == ErrorCode::too_large) return std::optional<Count>();
+  return size.error();
 }
 
 // Holes count here: they are refined, too.
-Json mesh_levels(const ControlMesh& mesh, Index level, Count refined_points) {
+Result<Json> mesh_levels(const ControlMesh& mesh, Index level, Count refined_points, const Budget& budget) {
   Json levels = Json::array();
-  const std::optional<Count> edges = edge_count(mesh, level, refined_points);
+  const auto counted = edge_count(mesh, level, refined_points, budget);
+  if (!counted) return counted.error();
+  const std::optional<Count> edges = *counted;
   if (!edges) return levels;
   for (Index l = 0; l <= level; ++l) {
     const LevelCounts counts = refined_counts(mesh.point_count(), *edges, mesh.face_count(), l);
@@ -49,11 +57,14 @@ Json curve_levels(const ControlCurves& curves, Index level) {
   return levels;
 }
 
-Json mesh_statistics(const ControlMesh& mesh, Index level, Count refined_points) {
+Result<Json> mesh_statistics(const ControlMesh& mesh, Index level, Count refined_points,
+                             const Budget& budget) {
+  auto levels = mesh_levels(mesh, level, refined_points, budget);
+  if (!levels) return levels;
   Json json;
   if (!mesh.name.empty()) json["name"] = mesh.name;
   json["input"] = {{"points", mesh.point_count()}, {"faces", mesh.face_count()}};
-  json["levels"] = mesh_levels(mesh, level, refined_points);
+  json["levels"] = *std::move(levels);
   return json;
 }
 
@@ -100,7 +111,9 @@ class StatisticsWriter {
       return known ? answer->meshes[i].points.size() / 3 : 0;
     };
     add("meshes", request_.meshes.size(), [&](std::size_t i) {
-      Json json = mesh_statistics(request_.meshes[i], level, refined(i));
+      auto counted = mesh_statistics(request_.meshes[i], level, refined(i), budget_);
+      if (!counted) stopped_ = counted.error();
+      Json json = counted ? *std::move(counted) : Json();
       if (answer != nullptr && i < answer->meshes.size())
         json["output"] = {{"points", answer->meshes[i].points.size() / 3},
                           {"triangles", answer->meshes[i].triangle_count}};
@@ -135,7 +148,7 @@ class StatisticsWriter {
     for (std::size_t i = 0; i < count && !stopped_; ++i) {
       if (i > 0) text_ += ',';
       text_ += dumped(one(i));
-      stopped_ = budget_.poll();
+      if (!stopped_) stopped_ = budget_.poll();
     }
     text_ += ']';
   }

@@ -10,8 +10,6 @@ namespace subdivd::proto::json {
 namespace {
 
 constexpr std::size_t kBytesPerPoll = std::size_t{1} << 20;
-constexpr std::size_t kLongestName = 128;  // with escapes; no name of ours is longer
-
 template <std::size_t n>
 bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
   return std::ranges::find(names, name) != names.end();
@@ -31,6 +29,16 @@ constexpr std::array<std::string_view, 10> kOfMeshes = {"faceVertexIndices",
 constexpr std::array<std::string_view, 6> kOfSurfaces = {"uVertexCount", "vVertexCount", "uDegree",
                                                          "vDegree",      "uWrap",        "vWrap"};
 constexpr std::array<std::string_view, 3> kIgnored = {"statistics", "warnings", "verification"};
+
+template <std::size_t n>
+constexpr std::size_t longest(const std::array<std::string_view, n>& names) {
+  std::size_t most = 0;
+  for (const std::string_view name : names) most = std::max(most, name.size());
+  return most;
+}
+// Every letter may be an escape of six, as the reader reads it.
+constexpr std::size_t kLongestName =
+    6 * std::max({longest(kCurveTypes), longest(kOfMeshes), longest(kOfSurfaces), longest(kIgnored)});
 
 // What a string between its quotes says; empty when it is no string, or longer than any that matters.
 std::string plain(std::string_view quoted) {
@@ -140,7 +148,7 @@ class Surveyor {
 Count Survey::reading_bytes() const {
   // A number takes a double, or an index; of lists their lengths, too. Arrays are allocated at once, as long
   // as there are commas in them. Objects are meshes, curves, surfaces and primvars in vectors that grow.
-  constexpr Count kNumber = 8, kObject = 2048, kSomething = 65536;
+  constexpr Count kNumber = 8, kObject = 1024, kSomething = 65536;
   return kSomething + kNumber * (commas + 2 * brackets) + kObject * braces + 4 * string_bytes;
 }
 

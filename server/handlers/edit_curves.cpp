@@ -181,13 +181,12 @@ class Collector {
       return {};
     }
     const double gap = std::max(tolerance_, tolerance);
-    auto longer = subdivd::join(joined_->spline, curve.spline, gap, budget_);
-    if (!longer) {
-      Error error = std::move(longer).error();
+    if (auto done = subdivd::append(joined_->spline, curve.spline, gap, budget_); !done) {
+      Error error = std::move(done).error();
       error.where.clear();
       return proto::blame_input(request_.curves, std::move(error), "curves", set);
     }
-    *joined_ = {*std::move(longer), std::max(joined_->bound, curve.bound + gap / 2)};
+    joined_->bound = std::max(joined_->bound, curve.bound + gap / 2);
     tolerance_ = gap;
     return {};
   }

@@ -70,6 +70,7 @@ Count numbers_of(const CurveRequest& request) {
 Count bytes_beside(const CurveRequest& request) {
   constexpr Count kOfCurve = 1536, kOfClosestPoint = 160;
   Count curves = 0, bytes = 0;
+  if (request.task.kind == CurveTaskKind::evaluate) return 0;  // takes what it keeps of curves when it does
   for (const ControlCurves& set : request.curves.curves) curves += set.curve_count();
   bytes += kOfCurve * curves;
   if (request.task.closest_width > 0)

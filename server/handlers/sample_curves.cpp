@@ -7,11 +7,13 @@
 
 #include "core/splines/bspline.h"
 #include "core/splines/differential.h"
+#include "core/splines/growing_memory.h"
 #include "core/surfaces/patch.h"
 #include "proto/prepare.h"
 #include "server/handlers/compute_curves.h"
 #include "server/handlers/drawn_curve.h"
 #include "server/handlers/each_curve.h"
+#include "server/handlers/reused_memory.h"
 
 namespace subdivd::server {
 namespace {
@@ -28,13 +30,27 @@ struct Located {
   CurvePlace place;
 };
 
+Count curve_count(const CurveRequest& request) {
+  Count count = 0;
+  for (const ControlCurves& curves : request.curves.curves) count += curves.curve_count();
+  return count;
+}
+
 std::vector<Located> all_curves(const CurveRequest& request) {
   std::vector<Located> all;
+  all.reserve(curve_count(request));
   for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
     const std::vector<CurvePlace> places = curve_places(request.curves.curves[i]);
     for (Count c = 0; c < places.size(); ++c) all.push_back({i, c, places[c]});
   }
   return all;
+}
+
+// What a curve keeps beside itself.
+Count held_bytes(const DrawnCurve& curve) {
+  const Spline* spline = std::get_if<Spline>(&curve);
+  if (spline == nullptr) return 0;
+  return (spline->knots.capacity() + spline->points.capacity()) * sizeof(double) + 2 * kBytesPerBlock;
 }
 
 Error no_such(const char* what, const char* member, std::size_t sample, Index number, std::size_t count) {
@@ -112,8 +128,12 @@ Error at_sample(Error error, const CurveTask& task, std::size_t sample) {
 
 }  // namespace
 
-Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
+Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& whole) {
   const CurveTask& task = request.task;
+  ReusedMemory memory(whole);
+  const Budget& budget = memory.budget();
+  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<DrawnCurve>);
+  if (auto taken = budget.take_memory(curve_count(request) * kOfCurve); !taken) return taken.error();
   const std::vector<Located> all = all_curves(request);
   CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
   samples.widths.reserve(task.sample_ts.size());
@@ -133,11 +153,13 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
     std::optional<DrawnCurve>& curve = curves[number];
     if (!curve) {
       const auto& [set, ordinal, place] = all[number];
-      const Count bytes = spline_bytes(request.curves.curves[set], ordinal);
+      const Count kept = memory.used(), bytes = spline_bytes(request.curves.curves[set], ordinal);
       if (auto taken = budget.take_memory(bytes); !taken) return taken.error();
       auto made = drawn(request.curves.curves[set], ordinal, place);
       if (!made) return proto::blame_input(request.curves, std::move(made).error(), "curves", set);
       curve = *std::move(made);
+      memory.free_to(kept);
+      if (auto taken = budget.take_memory(held_bytes(*curve)); !taken) return taken.error();
     }
     const auto done =
         std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, *curve);

@@ -143,5 +143,69 @@ TEST(json_budget, memory_that_is_not_there_is_no_fault_of_the_body) {
   EXPECT_TRUE(request.error().where.empty());
 }
 
+// Counts that promise more corners than there are once asked for memory for all of them.
+TEST(json_budget, faces_that_are_not_there_take_no_memory) {
+  Purse purse(4'000'000);
+  Budget budget;
+  budget.memory = &purse;
+  for (const char* counts : {"[4000000000]", "[3,4294967294]", "[4]", "[2,2]"}) {
+    const std::string body = R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexCounts":)" + std::string(counts) +
+                             R"(,"faceVertexIndices":[0,1,2],"options":{"triangulate":true}})";
+    const auto request = decode_refine(body, BodyKind::json, {}, {}, budget);
+    ASSERT_FALSE(request.ok()) << counts;
+    EXPECT_NE(request.error().code, ErrorCode::overloaded) << counts;
+    ASSERT_FALSE(request.error().where.empty()) << counts;
+    EXPECT_EQ(request.error().where[0], PathStep("faceVertexCounts")) << counts;
+  }
+}
+
+// The edges of a mesh that is not refined are counted for the statistics; nobody stopped that.
+TEST(json_budget, statistics_stop_at_their_deadline) {
+  RefineRequest request;
+  ControlMesh& mesh = request.meshes.emplace_back();
+  constexpr Index kRows = 1000;
+  for (Index i = 0; i <= kRows; ++i)
+    for (Index k = 0; k <= kRows; ++k) mesh.points.insert(mesh.points.end(), {double(i), double(k), 0});
+  for (Index i = 0; i < kRows; ++i)
+    for (Index k = 0; k < kRows; ++k) {
+      const Index a = i * (kRows + 1) + k, b = a + kRows + 1;
+      mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  const auto took = [&](const Budget& budget, bool& ok) {
+    const auto begin = Budget::Clock::now();
+    ok = encode_report(request, {}, budget).ok();
+    return Budget::Clock::now() - begin;
+  };
+  bool ok = false;
+  const auto whole = took({}, ok);
+  EXPECT_TRUE(ok);
+  const std::atomic<bool> gone{true};
+  Budget budget;
+  budget.cancelled = &gone;
+  EXPECT_LT(took(budget, ok), whole / 4);
+  EXPECT_FALSE(ok);
+}
+
+// Names that matter are known however they are written: the reader knows them, too.
+TEST(json_budget, names_of_escapes_alone_are_known) {
+  const auto escaped = [](std::string_view name) {
+    std::string text;
+    for (const char c : name) {
+      constexpr std::string_view kDigits = "0123456789abcdef";
+      text += "\\u00";
+      text += kDigits[static_cast<unsigned char>(c) >> 4];
+      text += kDigits[c & 15];
+    }
+    return text;
+  };
+  for (const char* name : {"faceVaryingLinearInterpolation", "subdivisionScheme", "interpolateBoundary"}) {
+    const std::string body = "{\"" + escaped(name) + "\":0}";
+    const auto survey = json::survey(body, {});
+    ASSERT_TRUE(survey.ok());
+    EXPECT_TRUE(survey->of_mesh) << name;
+  }
+  EXPECT_TRUE(json::survey("{\"type\":\"" + escaped("bsplineSurface") + "\"}", {})->has_curve_type);
+}
+
 }  // namespace
 }  // namespace subdivd::proto::test

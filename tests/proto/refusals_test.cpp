@@ -61,10 +61,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"nan", R"({"points":[NaN,0,0]})", "malformed /points/0"},
         Case{"infinity", R"({"points":[0,0,-Infinity]})", "malformed /points/2"},
         // What follows a complete value, here 0, is taken for the next element.
-        Case{"leading_zero", R"({"points":[01,0,0]})", "malformed /points/1"},
+        Case{"leading_zero", R"({"points":[01,0,0]})", "malformed /points/0"},
         Case{"plus_sign", R"({"points":[0,+1,0]})", "malformed /points/1"},
         Case{"bare_dot", R"({"points":[0,1.,0]})", "malformed /points/1"},
-        Case{"hexadecimal", R"({"points":[0,0,0x10]})", "malformed /points/3"},
+        Case{"hexadecimal", R"({"points":[0,0,0x10]})", "malformed /points/2"},
         Case{"bad_utf8", "{\"name\":\"\xFF\"}", "malformed /name"},
         Case{"surrogate_alone", R"({"name":"\ud800"})", "malformed /name"},
         Case{"control_character", "{\"name\":\"a\nb\"}", "malformed /name"},
@@ -300,6 +300,41 @@ TEST(refusal_messages, say_where_the_text_stops_being_json) {
 
 TEST(refusal_messages, guess_that_a_body_was_cut_short) {
   EXPECT_THAT(message(R"({"points":[[0,0)"), testing::HasSubstr("cut short"));
+}
+
+// Whatever the end of the body cuts, nothing before it was wrong.
+TEST(refusal_messages, guess_that_a_value_was_cut_short) {
+  for (const char* body :
+       {"{\"warnings\":\"\\", "{\"warnings\":\"\\u", "{\"warnings\":\"\\u12", "{\"name\":\"\\ud83d",
+        "{\"name\":\"\\ud83d\\", "{\"name\":\"\\ud83d\\ude0", "{\"name\":\"\xC3", "{\"name\":\"a\xE2\x82",
+        "{\"name\":\"\\n\xF0\x9F\x98", "{\"points\":[-", "{\"points\":[1.", "{\"points\":[[1e",
+        "{\"statistics\":1e+", "{\"statistics\":tru"})
+    EXPECT_THAT(message(body), testing::HasSubstr("cut short")) << body;
+  for (const char* body : {"{\"warnings\":\"\\u12\"}", "{\"name\":\"\\ud83dx\"}", "{\"name\":\"\xC3\"}",
+                           "{\"name\":\"\xFF", "{\"points\":[-]}", "{\"points\":[1.]}"})
+    EXPECT_THAT(message(body), testing::HasSubstr("stops being valid JSON")) << body;
+}
+
+std::string place_of(std::string number, const std::string& before, const std::string& behind) {
+  return refusal(before + std::move(number) + behind);
+}
+
+// A number that goes on as none does is blamed itself, not what would come next.
+TEST(refusal_places, of_malformed_numbers_are_their_own) {
+  for (const char* number : {"01", "1e5x", "-", "1.", "1.e5", "00.5", "1-", "1\"\"", "2[", "0x10", "1e5.5"}) {
+    EXPECT_EQ(place_of(number, R"({"points":[[0,0,0],[1,0,0],[0,)", ",0]]}"), "malformed /points/2/1")
+        << number;
+    EXPECT_EQ(place_of(number, R"({"points":[0,)", "]}"), "malformed /points/1") << number;
+    EXPECT_EQ(place_of(number, R"({"faceVertexIndices":[0,1,)", "]}"), "malformed /faceVertexIndices/2")
+        << number;
+    EXPECT_EQ(place_of(number, R"({"faceVertexIndices":[[0,)", ",2]]}"), "malformed /faceVertexIndices/0/1")
+        << number;
+    EXPECT_EQ(place_of(number, R"({"creaseSharpnesses":[)", "]}"), "malformed /creaseSharpnesses/0")
+        << number;
+    EXPECT_EQ(place_of(number, R"({"options":{"level":)", "}}"), "malformed /options/level") << number;
+    EXPECT_EQ(place_of(number, R"({"statistics":{"a":[0,)", "]}}"), "malformed /statistics/a/1") << number;
+    EXPECT_EQ(place_of(number, R"({"curves":[{"tension":)", "}]}"), "malformed /curves/0/tension") << number;
+  }
 }
 
 TEST(refusal_messages, name_the_near_member) {

@@ -123,6 +123,12 @@ TEST(round_trip, long_numbers_out_of_range_are_told_apart) {
   EXPECT_EQ(first_of("0.0000000000000000001e99999999999999999999"), HUGE_VAL);
   EXPECT_TRUE(std::signbit(first_of("-1.0000000000000000001e-99999999999999999999")));
   EXPECT_EQ(first_of("0" + std::string(".") + zeros), 0.0);
+  // The smallest exponents that 64 bits hold, and what is too small for those.
+  for (const char* exponent : {"7", "8", "9"}) {
+    EXPECT_EQ(first_of("1e-922337203685477580" + std::string(exponent)), 0.0) << exponent;
+    EXPECT_EQ(first_of("17.5e-922337203685477580" + std::string(exponent)), 0.0) << exponent;
+    EXPECT_EQ(first_of("1e922337203685477580" + std::string(exponent)), HUGE_VAL) << exponent;
+  }
 }
 
 TEST(round_trip, floats_keep_their_bits) {

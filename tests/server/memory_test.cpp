@@ -82,6 +82,26 @@ std::string mesh(std::size_t rows, bool nested, const std::string& members = {})
   return "{\"points\":[" + points + "],\"faceVertexIndices\":[" + faces + "]" + members + "}";
 }
 
+const std::string kSmallMesh = R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2]},)";
+const std::string kSmallCurve = R"({"points":[[0],[1]]},)";
+const std::string kSmallSurface =
+    R"({"uVertexCount":2,"vVertexCount":2,"degree":1,"points":[[0],[1],[2],[3]]},)";
+
+std::string primvars(std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i)
+    text += (i > 0 ? ",\"" : "\"") + std::to_string(i) + R"(":{"values":[0,1,2],"elementSize":1})";
+  return text;
+}
+
+// One crease along the strip, from one side to the other and back.
+std::string creased(std::size_t points) {
+  std::string crease = "0";
+  for (std::size_t i = 1; i < points; ++i) crease += "," + std::to_string(i);
+  return ",\"creaseIndices\":[" + crease + "],\"creaseLengths\":[" + std::to_string(points) +
+         "],\"creaseSharpnesses\":[1]";
+}
+
 TEST(Memory, of_reading_is_taken_beforehand_and_not_much_more) {
   for (const std::size_t rows : {std::size_t{1000}, std::size_t{20000}})
     for (const bool nested : {true, false})
@@ -96,6 +116,17 @@ TEST(Memory, of_reading_hostile_bodies_is_taken_beforehand) {
       R"({"faceVertexIndices":[)" + repeated("[],", kMany) + "[]]}",
       R"({"faceVertexIndices":[)" + repeated("[0],", kMany) + "[0]]}",
       R"({"points":[)" + repeated("{},", kMany) + "0]}",
+      // One more than a vector that grows has room for.
+      R"({"meshes":[)" + repeated(kSmallMesh, 32768) + kSmallMesh.substr(0, kSmallMesh.size() - 1) + "]}",
+      R"({"curves":[)" + repeated(kSmallCurve, 32768) + kSmallCurve.substr(0, kSmallCurve.size() - 1) + "]}",
+      R"({"surfaces":[)" + repeated(kSmallSurface, 32768) +
+          kSmallSurface.substr(0, kSmallSurface.size() - 1) + "]}",
+      R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2],"primvars":{)" + primvars(1025) + "}}",
+      R"({"meshes":[)" +
+          repeated(R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2],"primvars":{)" + primvars(5) +
+                       "}},",
+                   10000) +
+          kSmallMesh.substr(0, kSmallMesh.size() - 1) + "]}",
       R"({"meshes":[)" + repeated(R"({"points":[],"faceVertexIndices":[]},)", 60000) + "{}]}",
       R"({"curves":[)" + repeated(R"({"points":[]},)", 60000) + "{}]}",
       R"({"surfaces":[)" + repeated("{},", 60000) + "{}]}",
@@ -105,6 +136,10 @@ TEST(Memory, of_reading_hostile_bodies_is_taken_beforehand) {
       R"({"curves":[{"points":[[0]],"curveVertexCounts":[)" + repeated("1,", kMany) + "1]}]}",
       R"({"points":[)" + repeated("\",\",", kMany) + "0]}",
       mesh(20000, true, R"(,"options":{"triangulate":true},"holeIndices":[0,1,2])"),
+      mesh(20000, false, creased(40000)),
+      R"({"statistics":")" + repeated("\\u00e9", kMany) + "\"}",
+      R"({"statistics":{")" + repeated("\\u00e9", kMany) + "\":0}}",
+      R"({"statistics":")" + repeated("x", kMany) + "\\n\"}",
   };
   for (const std::string& body : bodies) expect_kept(body.substr(0, 60).c_str(), read(body), 0);
 }
@@ -162,6 +197,12 @@ std::string numbers(std::size_t count, double most, double first = 0) {
   return text + "]";
 }
 
+std::string counted(std::size_t count) {
+  std::string text = "[0";
+  for (std::size_t i = 1; i < count; ++i) text += "," + std::to_string(i);
+  return text + "]";
+}
+
 TEST(Memory, of_tasks_on_curves_is_promised) {
   constexpr std::size_t kPoints = 9001;  // 3 k + 1
   const struct {
@@ -188,6 +229,12 @@ TEST(Memory, of_tasks_on_curves_is_promised) {
            "}}"},
       {"evaluate, one dimension", Kind::evaluate,
        "{" + wave(3000, 1) + R"(,"samples":{"ts":)" + numbers(20000, 2900) + "}}"},
+      {"evaluate many", Kind::evaluate,
+       "{" + wave(20000, 2) + R"(,"degree":1,"curveVertexCounts":[)" + repeated("2,", 9999) +
+           R"(2],"samples":{"curves":)" + counted(10000) + R"(,"ts":[)" + repeated("0.5,", 9999) + "1]}}"},
+      {"evaluate many Bezier", Kind::evaluate,
+       "{" + wave(40000, 2) + R"(,"basis":"bezier","curveVertexCounts":[)" + repeated("4,", 9999) +
+           R"(4],"samples":{"curves":)" + counted(10000) + R"(,"ts":[)" + repeated("0.5,", 9999) + "1]}}"},
       {"evaluate four-point", Kind::evaluate,
        "{" + wave(3000, 2) + R"(,"basis":"fourPoint","samples":{"ts":)" + numbers(5000, 2900) + "}}"},
       {"evaluate surfaces", Kind::evaluate,
@@ -200,6 +247,9 @@ TEST(Memory, of_tasks_on_curves_is_promised) {
       {"convert to Hermite", Kind::convert, "{" + wave(kPoints, 1) + R"(,"to":"hermite"})"},
       {"raise the degree", Kind::convert, "{" + wave(1000, 2) + R"(,"toDegree":9})"},
       {"remove", Kind::remove_knot, "{" + wave(600, 2) + R"(,"tolerance":0.5})"},
+      {"join many", Kind::convert,
+       R"({"join":true,"tolerance":100,"curves":[{"degree":1,)" + wave(8000, 2) +
+           R"(,"curveVertexCounts":[)" + repeated("2,", 3999) + "2]}]}"},
       {"join", Kind::convert,
        R"({"join":true,"tolerance":100,"curves":[)" + repeated("{" + wave(40, 2) + "},", 29) + "{" +
            wave(40, 2) + "}]}"},

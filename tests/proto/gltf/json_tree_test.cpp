@@ -76,6 +76,15 @@ TEST(JsonTree, refuses_what_hides_behind_a_nul) {
   EXPECT_TRUE(parse(std::string_view("{}\0\0", 4), {}).ok());
 }
 
+TEST(JsonTree, minus_0_is_a_whole_number) {
+  const auto parsed = parse("[-0,-0.0,-1]", {});
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ((*parsed->array())[0].integer(), Count{0});
+  EXPECT_EQ((*parsed->array())[1].integer(), std::nullopt);
+  EXPECT_EQ((*parsed->array())[2].integer(), std::nullopt);
+  EXPECT_EQ(parsed->text(), "[-0,-0.0,-1]");
+}
+
 TEST(JsonTree, knows_whole_numbers) {
   const auto parsed = parse("[0,9007199254740992,9007199254740993,-1,1.0,1e2,true]", {});
   ASSERT_TRUE(parsed.ok());
