@@ -18,7 +18,11 @@ Budget within(std::chrono::milliseconds time) {
   return budget;
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::chrono::seconds kLinear{60};  // ten times slower
+#else
 constexpr std::chrono::seconds kLinear{10};
+#endif
 
 RefineOptions everything(Index level) {
   RefineOptions options;
