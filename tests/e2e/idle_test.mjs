@@ -20,7 +20,7 @@ const body = '{"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,2]}';
 const headers = { 'Content-Type': 'application/json' };
 
 let daemon;
-before(async () => { daemon = await startDaemon(['--idle-timeout', `${announced}`]); });
+before(async () => { daemon = await startDaemon(['--max-waiting', '1000', '--idle-timeout', `${announced}`]); });
 after(async () => { await daemon.stop(); });
 
 // Runs `client(pause)` for all pauses at once, and says which of them failed.
