@@ -391,7 +391,7 @@ bool Cursor::try_index(std::uint32_t& out) {
   while (p < end_ && is_digit(*p) && value < kNoIndex)
     value = 10 * value + static_cast<std::uint64_t>(*p++ - '0');
   const bool ends = p == end_ || ends_value(*p);
-  const bool leading_zero = *at_ == '0' && p - at_ > 1;
+  const bool leading_zero = p - at_ > 1 && *at_ == '0';
   if (p > at_ && ends && !leading_zero) {
     if (value >= kNoIndex) return false;
     out = static_cast<std::uint32_t>(value);
