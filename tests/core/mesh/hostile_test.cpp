@@ -15,21 +15,14 @@
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
 #include "tests/shapes/build.h"
+#include "tests/support/deadlines.h"
 
 namespace subdivd {
 namespace {
 
-Budget within(std::chrono::milliseconds time) {
-  Budget budget;
-  budget.deadline = Budget::Clock::now() + time;
-  return budget;
-}
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::chrono::seconds kLinear{60};  // ten times slower
-#else
-constexpr std::chrono::seconds kLinear{8};
-#endif
+using testing::expect_stops_midway;
+using testing::kLinear;
+using testing::within;
 
 // `faces` triangles on the edge between points 0 and 1.
 ControlMesh book(Index faces) {
@@ -154,24 +147,6 @@ TEST(HostileMesh, a_hundred_thousand_primvars_are_checked_in_linear_time) {
   const auto twice = mesh.check(within(kLinear));
   ASSERT_FALSE(twice.ok());
   EXPECT_EQ(twice.error().code, ErrorCode::duplicate_field);
-}
-
-// Stops midway: what takes long is stopped by a deadline in its middle, whichever part that is.
-template <class Work>
-void expect_stops_midway(Work&& work) {
-  auto whole = Budget::Clock::duration::max();
-  for (int run = 0; run < 2; ++run) {  // the first may find no memory at hand, and take far longer
-    const auto start = Budget::Clock::now();
-    ASSERT_TRUE(work(Budget{}).ok());
-    whole = std::min(whole, Budget::Clock::now() - start);
-  }
-  for (const int part : {8, 4}) {
-    Budget budget;
-    budget.deadline = Budget::Clock::now() + whole / part;
-    const auto result = work(budget);
-    ASSERT_FALSE(result.ok()) << part;
-    EXPECT_EQ(result.error().code, ErrorCode::deadline_exceeded) << part;
-  }
 }
 
 TEST(StopsMidway, checking) {

@@ -8,21 +8,14 @@
 
 #include "core/refine/refine.h"
 #include "tests/shapes/build.h"
+#include "tests/support/deadlines.h"
 
 namespace subdivd {
 namespace {
 
-Budget within(std::chrono::milliseconds time) {
-  Budget budget;
-  budget.deadline = Budget::Clock::now() + time;
-  return budget;
-}
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::chrono::seconds kLinear{60};  // ten times slower
-#else
-constexpr std::chrono::seconds kLinear{10};
-#endif
+using testing::expect_stops_midway;
+using testing::kLinear;
+using testing::within;
 
 RefineOptions everything(Index level) {
   RefineOptions options;
@@ -102,24 +95,6 @@ TEST(HostileRefine, render_meshes_of_many_unused_vertices_are_predicted_in_the_t
   const auto size = predict_size<float>(mesh, {}, within(kLinear));
   ASSERT_TRUE(size.ok());
   EXPECT_EQ(size->render_vertices[0], 2000000u + 3 * 3 + 3);  // level 2
-}
-
-// What takes long is stopped by a deadline in its middle, whichever part that is.
-template <class Work>
-void expect_stops_midway(Work&& work) {
-  auto whole = Budget::Clock::duration::max();
-  for (int run = 0; run < 2; ++run) {  // the first may find no memory at hand, and take far longer
-    const auto start = Budget::Clock::now();
-    ASSERT_TRUE(work(Budget{}).ok());
-    whole = std::min(whole, Budget::Clock::now() - start);
-  }
-  for (const int part : {8, 4}) {
-    Budget budget;
-    budget.deadline = Budget::Clock::now() + whole / part;
-    const auto result = work(budget);
-    ASSERT_FALSE(result.ok()) << part;
-    EXPECT_EQ(result.error().code, ErrorCode::deadline_exceeded) << part;
-  }
 }
 
 TEST(StopsMidway, predicting) {
