@@ -19,14 +19,15 @@ Refusal incomplete(const char* detail) { return {400, "incomplete_body", detail}
 // count as its time.
 class Reader {
  public:
-  Reader(ClientSocket& socket, const BodyLimits& limits, const std::atomic<bool>* cancelled,
-         BodyBuffer& buffer, std::string& body)
+  Reader(ClientSocket& socket, const BodyLimits& limits, ThreadDemand& demand,
+         const std::atomic<bool>* cancelled, BodyBuffer& buffer, std::string& body)
       : socket_(socket),
         limits_(limits),
+        demand_(demand),
         cancelled_(cancelled),
         buffer_(buffer),
         body_(body),
-        pace_(limits.patience) {}
+        time_(limits.patience, demand) {}
 
   std::optional<Refusal> read_length(std::uint64_t length);
   std::optional<Refusal> read_chunked();
@@ -35,17 +36,23 @@ class Reader {
   bool reserve(std::uint64_t bytes) {
     if (bytes <= buffer_.reserved()) return true;
     const bool reserved = buffer_.reserve(bytes, Clock::now() + limits_.patience, cancelled_);
-    pace_ = Pace(limits_.patience);
+    time_ = TransferTime(limits_.patience, demand_);
     return reserved;
+  }
+  // Why the socket has no more.
+  Refusal broken_off() const {
+    if (time_.gave_way()) return overloaded("others waited for a thread while this body came slowly");
+    return incomplete("the body ended early or came too slowly");
   }
   std::optional<Refusal> add_piece(std::string_view piece, std::uint64_t chunk_left);
 
   ClientSocket& socket_;
   const BodyLimits& limits_;
+  ThreadDemand& demand_;
   const std::atomic<bool>* cancelled_;
   BodyBuffer& buffer_;
   std::string& body_;
-  Pace pace_;
+  TransferTime time_;
 };
 
 std::optional<Refusal> Reader::read_length(std::uint64_t length) {
@@ -54,10 +61,9 @@ std::optional<Refusal> Reader::read_length(std::uint64_t length) {
   while (body_.size() < length) {
     if (body_.size() == buffer_.reserved() && !reserve(length)) return no_room();
     const std::uint64_t room = buffer_.reserved() - body_.size();
-    const std::size_t count =
-        socket_.read(piece, std::min<std::uint64_t>(room, kReadBytes), pace_.deadline());
-    if (count == 0) return incomplete("the body ended early or came too slowly");
-    pace_.moved(count);
+    const std::size_t count = socket_.read(piece, std::min<std::uint64_t>(room, kReadBytes), time_);
+    if (count == 0) return broken_off();
+    time_.moved(count);
     body_.append(piece, count);
   }
   return std::nullopt;
@@ -78,16 +84,15 @@ std::optional<Refusal> Reader::read_chunked() {
     const ChunkedBody::Step step = chunks.read(socket_.buffered());
     if (!step.data.empty()) {
       if (auto refusal = add_piece(step.data, chunks.chunk_left())) return refusal;
-      pace_.moved(step.data.size());  // only these buy time: extensions and chunks of one byte do not
+      time_.moved(step.data.size());  // only these buy time: extensions and chunks of one byte do not
     }
     socket_.consume(step.used);
     if (chunks.state() == ChunkedBody::State::done) return std::nullopt;
     if (chunks.state() == ChunkedBody::State::malformed)
       return incomplete("the body's chunks are not framed as RFC 9112, 7.1 has it");
-    if (Clock::now() >= pace_.deadline() ||
-        (socket_.buffered().empty() &&
-         socket_.fill(kReadBytes, pace_.deadline()) != ClientSocket::Outcome::ready))
-      return incomplete("the body ended early or came too slowly");
+    if (time_.is_over() ||
+        (socket_.buffered().empty() && socket_.fill(kReadBytes, time_) != ClientSocket::Outcome::ready))
+      return broken_off();
   }
 }
 
@@ -132,12 +137,13 @@ Refusal body_too_large(std::uint64_t announced, std::uint64_t allowed) {
 }
 
 std::optional<Refusal> read_body(ClientSocket& socket, const Head& head, const BodyLimits& limits,
-                                 const std::atomic<bool>* cancelled, BodyBuffer& buffer, std::string& body) {
+                                 ThreadDemand& demand, const std::atomic<bool>* cancelled, BodyBuffer& buffer,
+                                 std::string& body) {
   if (head.expects_continue && !socket.holds_unread()) {
-    Pace pace(limits.patience);
-    if (!socket.write(kContinue, pace)) return incomplete("the client left before it sent the body");
+    TransferTime time(limits.patience, demand);
+    if (!socket.write(kContinue, time)) return incomplete("the client left before it sent the body");
   }
-  Reader reader(socket, limits, cancelled, buffer, body);
+  Reader reader(socket, limits, demand, cancelled, buffer, body);
   return head.framing == Head::Framing::chunked ? reader.read_chunked()
                                                 : reader.read_length(head.content_length);
 }

@@ -49,7 +49,7 @@ class BodyBuffer {
 
 struct BodyLimits {
   std::uint64_t bytes = 0;
-  std::chrono::milliseconds patience{};  // see Pace
+  std::chrono::milliseconds patience{};  // see TransferTime
 };
 
 Refusal body_too_large(std::uint64_t announced, std::uint64_t allowed);
@@ -58,6 +58,7 @@ Refusal body_too_large(std::uint64_t announced, std::uint64_t allowed);
 // `cancelled`); afterwards the socket stands behind it. After a refusal it stands anywhere. Throws when the
 // system has no memory.
 std::optional<Refusal> read_body(ClientSocket& socket, const Head& head, const BodyLimits& limits,
-                                 const std::atomic<bool>* cancelled, BodyBuffer& buffer, std::string& body);
+                                 ThreadDemand& demand, const std::atomic<bool>* cancelled, BodyBuffer& buffer,
+                                 std::string& body);
 
 }  // namespace subdivd::server

@@ -56,6 +56,13 @@ ClientSocket::Outcome ClientSocket::wait_for(short event, Clock::time_point dead
   }
 }
 
+ClientSocket::Outcome ClientSocket::wait_for(short event, TransferTime& time) const {
+  for (;;) {
+    const Outcome outcome = wait_for(event, time.next_look());
+    if (outcome != Outcome::timed_out || time.is_over()) return outcome;
+  }
+}
+
 ClientSocket::Outcome ClientSocket::wait_readable(Clock::time_point deadline) const {
   return wait_for(POLLIN, deadline);
 }
@@ -84,14 +91,14 @@ ClientSocket::Outcome ClientSocket::fill_now(std::size_t most) {
   return outcome;
 }
 
-ClientSocket::Outcome ClientSocket::fill(std::size_t most, Clock::time_point deadline) {
+ClientSocket::Outcome ClientSocket::fill(std::size_t most, TransferTime& time) {
   for (;;) {
     if (const Outcome outcome = fill_now(most); outcome != Outcome::would_block) return outcome;
-    if (const Outcome outcome = wait_readable(deadline); outcome != Outcome::ready) return outcome;
+    if (const Outcome outcome = wait_for(POLLIN, time); outcome != Outcome::ready) return outcome;
   }
 }
 
-std::size_t ClientSocket::read(char* to, std::size_t size, Clock::time_point deadline) {
+std::size_t ClientSocket::read(char* to, std::size_t size, TransferTime& time) {
   if (!buffered().empty()) {
     const std::size_t count = buffered().copy(to, size);
     consume(count);
@@ -101,19 +108,19 @@ std::size_t ClientSocket::read(char* to, std::size_t size, Clock::time_point dea
     std::size_t received = 0;
     const Outcome outcome = receive_now(to, size, received);
     if (outcome == Outcome::ready) return received;
-    if (outcome != Outcome::would_block || wait_readable(deadline) != Outcome::ready) return 0;
+    if (outcome != Outcome::would_block || wait_for(POLLIN, time) != Outcome::ready) return 0;
   }
 }
 
-bool ClientSocket::write(std::string_view data, Pace& pace, bool more) {
+bool ClientSocket::write(std::string_view data, TransferTime& time, bool more) {
   const int flags = MSG_NOSIGNAL | (more ? MSG_MORE : 0);
   while (!data.empty()) {
     const ssize_t sent = ::send(fd_, data.data(), data.size(), flags);
     if (sent >= 0) {
       data.remove_prefix(static_cast<std::size_t>(sent));
-      pace.moved(static_cast<std::size_t>(sent));
+      time.moved(static_cast<std::size_t>(sent));
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      if (wait_for(POLLOUT, pace.deadline()) != Outcome::ready) return false;
+      if (wait_for(POLLOUT, time) != Outcome::ready) return false;
     } else if (errno != EINTR) {
       return false;
     }

@@ -8,22 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "server/transport/transfer_time.h"
+
 namespace subdivd::server {
-
-using Clock = std::chrono::steady_clock;
-
-// How long a transfer may take: a grace period, and one second more for every MiB that has moved. A client
-// that drips a byte a second, to hold a thread and a buffer, is cut at the end of the grace period; an honest
-// one on a slow line is not.
-class Pace {
- public:
-  explicit Pace(std::chrono::milliseconds grace) : deadline_(Clock::now() + grace) {}
-  void moved(std::size_t bytes) { deadline_ += std::chrono::microseconds(bytes); }
-  Clock::time_point deadline() const { return deadline_; }
-
- private:
-  Clock::time_point deadline_;
-};
 
 class ClientSocket {
  public:
@@ -49,14 +36,14 @@ class ClientSocket {
   // a byte; all of it unless the buffer grew by `most`.
   Outcome fill_now(std::size_t most);
   // As fill_now, but waits for a byte.
-  Outcome fill(std::size_t most, Clock::time_point deadline);
+  Outcome fill(std::size_t most, TransferTime& time);
   // Waits for a byte (or the end) without reading it.
   Outcome wait_readable(Clock::time_point deadline) const;
   // Moves up to `size` bytes (size > 0) from the buffer, or else the wire; 0: closed or out of time.
-  std::size_t read(char* to, std::size_t size, Clock::time_point deadline);
+  std::size_t read(char* to, std::size_t size, TransferTime& time);
 
   // Sends everything; false when the client is gone or too slow. `more` follows at once: it may travel along.
-  bool write(std::string_view data, Pace& pace, bool more = false);
+  bool write(std::string_view data, TransferTime& time, bool more = false);
   // Sends what the kernel takes at once.
   void write_now(std::string_view data) const;
 
@@ -70,6 +57,7 @@ class ClientSocket {
 
  private:
   Outcome wait_for(short event, Clock::time_point deadline) const;
+  Outcome wait_for(short event, TransferTime& time) const;
   Outcome receive_now(char* to, std::size_t size, std::size_t& received) const;
 
   int fd_;

@@ -20,9 +20,8 @@ constexpr std::size_t kJoinedBytes = 16 * 1024;
 // Reads the head that stands for the client's, writes to the client.
 class EngineStream final : public httplib::Stream {
  public:
-  EngineStream(ClientSocket& socket, std::string_view head, bool body_follows,
-               std::chrono::milliseconds patience)
-      : socket_(socket), head_(head), body_follows_(body_follows), pace_(patience) {}
+  EngineStream(ClientSocket& socket, std::string_view head, bool body_follows, TransferTime time)
+      : socket_(socket), head_(head), body_follows_(body_follows), time_(time) {}
 
   bool is_readable() const override { return true; }
   bool is_writable() const override { return true; }
@@ -47,9 +46,9 @@ class EngineStream final : public httplib::Stream {
     bool sent = true;
     if (!held_.empty() && size <= kJoinedBytes) {
       held_ += piece;
-      sent = socket_.write(held_, pace_);
+      sent = socket_.write(held_, time_);
     } else {
-      sent = (held_.empty() || socket_.write(held_, pace_, true)) && socket_.write(piece, pace_);
+      sent = (held_.empty() || socket_.write(held_, time_, true)) && socket_.write(piece, time_);
     }
     held_.clear();
     return sent ? static_cast<ssize_t>(size) : -1;
@@ -63,7 +62,7 @@ class EngineStream final : public httplib::Stream {
   std::string held_;
   const bool body_follows_;
   bool begun_ = false;
-  Pace pace_;
+  TransferTime time_;
 };
 
 std::string http_date() {
@@ -146,11 +145,10 @@ Engine::Engine(long long keep_alive_seconds) : keep_alive_seconds_(keep_alive_se
   });
 }
 
-Engine::Sent Engine::send(ClientSocket& socket, Response response, bool head_only,
-                          std::chrono::milliseconds patience) {
+Engine::Sent Engine::send(ClientSocket& socket, Response response, bool head_only, TransferTime time) {
   const bool body_follows = !head_only && response.size() > 0;
   EngineStream stream(socket, head_only ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n", body_follows,
-                      patience);
+                      time);
   response_ = &response;
   failed_ = false;
   bool client_closed = false, whole = false;

@@ -22,7 +22,7 @@ class Engine final : private httplib::Server {
 
   // Sends the response, without its body when `head_only`, and frees it. `nothing`: not a byte has gone out,
   // for want of memory.
-  Sent send(ClientSocket& socket, Response response, bool head_only, std::chrono::milliseconds patience);
+  Sent send(ClientSocket& socket, Response response, bool head_only, TransferTime time);
 
  private:
   void describe(Response response, httplib::Response& out);

@@ -1,5 +1,7 @@
 #include "server/transport/lanes.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace subdivd::server {
@@ -7,6 +9,8 @@ namespace {
 
 // With the buffers of their heads this many take at most 32 MiB.
 constexpr std::size_t kMostWaiting = 1024;
+// Threads come free all the time: only after that nobody is expected to make room by himself.
+constexpr std::chrono::milliseconds kOwnPatience{100};
 
 void refuse(Connection& connection) {
   connection.refuse(overloaded("no thread was free for this request in time"));
@@ -48,19 +52,23 @@ Connections Lanes::pop(Lane lane) {
   from.ready.wait(lock, [&] { return closed_ || !from.waiting.empty(); });
   --from.spare_threads;
   if (!from.waiting.empty()) one.splice(one.end(), from.waiting, from.waiting.begin());
+  if (lane == Lane::general && from.waiting.empty()) demand_.ask(0);
   return one;
 }
 
-bool Lanes::refuse_overdue() {
-  const Clock::time_point before = Clock::now() - patience_;
+bool Lanes::look_after_waiting() {
+  const Clock::time_point now = Clock::now();
   const std::lock_guard lock(mutex_);
   Connections& general = queue(Lane::general).waiting;
   Queue& health = queue(Lane::health);
-  while (!general.empty() && general.front()->queued < before) {
+  while (!general.empty() && general.front()->queued < now - patience_) {
     refuse(*general.front());
     health.waiting.splice(health.waiting.end(), general, general.begin());
     health.ready.notify_one();
   }
+  const auto has_just_come = [&](const auto& one) { return one->queued > now - kOwnPatience; };
+  demand_.ask(static_cast<std::size_t>(
+      std::distance(general.begin(), std::find_if(general.begin(), general.end(), has_just_come))));
   return !general.empty();
 }
 

@@ -10,6 +10,7 @@
 
 #include "server/transport/connection.h"
 #include "server/transport/service.h"
+#include "server/transport/transfer_time.h"
 
 namespace subdivd::server {
 
@@ -22,8 +23,12 @@ class Lanes {
   void push(Connections one);
   // Waits for one; empty after close().
   Connections pop(Lane lane);
-  // Refuses those who have waited for too long; false when nobody is left waiting in the general lane.
-  bool refuse_overdue();
+  // To be called every 100 ms, as long as somebody waits in the general lane (then it returns true): refuses
+  // those who have waited for too long, asks slow transfers to make room for the others.
+  bool look_after_waiting();
+
+  // What slow transfers are asked for by those who wait.
+  ThreadDemand& demand() { return demand_; }
 
   bool others_wait(Lane lane) const;
   bool has_spare_thread(Lane lane) const;
@@ -45,6 +50,7 @@ class Lanes {
   const std::chrono::milliseconds patience_;
   mutable std::mutex mutex_;
   std::array<Queue, 2> queues_;
+  ThreadDemand demand_;
   bool closed_ = false;
 };
 

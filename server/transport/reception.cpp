@@ -189,7 +189,7 @@ void Reception::run() {
 
 // Until something is overdue; -1: stopped.
 int Reception::milliseconds_to_wait() {
-  const bool queued = lanes_.refuse_overdue();
+  const bool queued = lanes_.look_after_waiting();
   const Clock::time_point now = Clock::now();
   const std::lock_guard lock(mutex_);
   if (stopped_) return -1;

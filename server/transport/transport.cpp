@@ -32,14 +32,15 @@ class Transport::Impl {
  public:
   Impl(TransportOptions options, Service& service, RequestMemory& memory)
       : options_(std::move(options)),
+        lanes_(service, options_.queue_timeout),
         context_{service,
                  watcher_,
                  memory,
+                 lanes_.demand(),
                  draining_,
                  {std::min(options_.max_body_bytes, memory.most_body()), options_.read_timeout},
                  options_.idle_timeout,
                  options_.max_requests_per_connection},
-        lanes_(service, options_.queue_timeout),
         reception_(lanes_, memory.heads, census_) {}
 
   ~Impl() {
@@ -182,8 +183,8 @@ class Transport::Impl {
   Census census_;  // outlives every connection
   Watcher watcher_;
   std::atomic<bool> draining_ = false;
-  const WorkerContext context_;
   Lanes lanes_;
+  const WorkerContext context_;
   Reception reception_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;

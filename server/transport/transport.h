@@ -20,7 +20,7 @@ struct TransportOptions {
   std::size_t threads = 128;                        // requests read, answered and sent at once
   std::size_t max_connections = 0;                  // 0: as many as descriptors allow, 10,000 at most
   std::uint64_t max_body_bytes = 256u << 20;        // of one request; memory.most_body() at most
-  std::chrono::milliseconds read_timeout{30'000};   // see Pace (client_socket.h)
+  std::chrono::milliseconds read_timeout{30'000};   // see TransferTime
   std::chrono::milliseconds idle_timeout{75'000};   // between two requests of one connection, as announced
   std::chrono::milliseconds idle_grace{5'000};      // more than was announced: for requests on their way
   std::chrono::milliseconds queue_timeout{10'000};  // how long a complete request may wait for a thread

@@ -86,8 +86,8 @@ Worker::After Worker::exchange(Connection& connection) {
   const bool close = response.close;
   const int status = response.status;
   const std::uint64_t size = response.size();
-  const Engine::Sent sent =
-      engine_.send(connection.socket(), std::move(response), request.method == "HEAD", patience_);
+  const Engine::Sent sent = engine_.send(connection.socket(), std::move(response), request.method == "HEAD",
+                                         TransferTime(patience_, context_.demand));
   if (sent == Engine::Sent::nothing && !post_.cancelled()) connection.socket().write_now(kBareOverloaded);
   const bool whole = sent == Engine::Sent::whole;
   record_safely({request, sent == Engine::Sent::nothing ? 503 : status, size, whole,
@@ -107,8 +107,8 @@ Response Worker::respond(Connection& connection, BodyBuffer& buffer, bool& body_
       return refuse_safely(request, body_too_large(turn.head.content_length, context_.body.bytes));
     std::optional<Refusal> refusal;
     try {
-      refusal =
-          read_body(connection.socket(), turn.head, context_.body, request.cancelled, buffer, request.body);
+      refusal = read_body(connection.socket(), turn.head, context_.body, context_.demand, request.cancelled,
+                          buffer, request.body);
     } catch (...) {
       refusal = refusal_of_exception();
     }

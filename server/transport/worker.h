@@ -19,6 +19,7 @@ struct WorkerContext {
   Service& service;
   Watcher& watcher;
   RequestMemory& memory;
+  ThreadDemand& demand;
   const std::atomic<bool>& draining;
   BodyLimits body;
   std::chrono::milliseconds idle_timeout{};
@@ -33,7 +34,7 @@ class Worker {
     close
   };
 
-  // `patience` for clients that read slowly, see Pace.
+  // `patience` for clients that read slowly, see TransferTime.
   Worker(const WorkerContext& context, std::chrono::milliseconds patience);
 
   // Answers the connection's turn, which stays as it is until its owner ends it. Never throws: whatever

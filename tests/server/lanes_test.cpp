@@ -1,9 +1,12 @@
 // Who waits for whom.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <thread>
 #include <vector>
 
+#include "server/transport/transfer_time.h"
 #include "tests/server/fake_service.h"
 
 namespace subdivd::server::testing {
@@ -36,6 +39,10 @@ bool both_threads_are_taken(const RunningTransport& server) {
   });
 }
 
+constexpr const char* kSlowBody = "POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 9\r\n\r\nabc";
+constexpr const char* kSlowChunks =
+    "POST /size HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n9\r\nabc";
+
 TEST(Lanes, answers_for_its_health_while_all_threads_compute) {
   RunningTransport server(two_threads());
   const Clients busy = send_from_two(server.port, post("/wait", "x"));
@@ -45,8 +52,7 @@ TEST(Lanes, answers_for_its_health_while_all_threads_compute) {
 }
 TEST(Lanes, answers_for_its_health_while_all_threads_read_slow_bodies) {
   const RunningTransport server(two_threads());
-  const Clients busy =
-      send_from_two(server.port, "POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 9\r\n\r\nabc");
+  const Clients busy = send_from_two(server.port, kSlowBody);
   ASSERT_TRUE(both_threads_are_taken(server));
   EXPECT_EQ(ask(server.port, get("/health")).status, 200);
 }
@@ -55,6 +61,58 @@ TEST(Lanes, answers_for_its_health_while_all_threads_have_slow_readers) {
   const Clients busy = send_from_two(server.port, get("/large"), 4096);
   ASSERT_TRUE(both_threads_are_taken(server));
   EXPECT_EQ(ask(server.port, get("/health")).status, 200);
+}
+TEST(Lanes, ends_slow_bodies_for_those_who_wait) {
+  for (const char* slow : {kSlowBody, kSlowChunks}) {
+    const RunningTransport server(two_threads());
+    const Clients busy = send_from_two(server.port, slow);
+    ASSERT_TRUE(both_threads_are_taken(server));
+    EXPECT_EQ(ask(server.port, get("/a")).status, 200);
+    // As many as waited, and no more: the other one is still read.
+    ASSERT_TRUE(eventually([&] { return server.transport.state().requests == 1; }));
+    std::vector<int> statuses;
+    for (const auto& client : busy) {
+      client->send("defghi\r\n0\r\n\r\n");
+      const RawResponse response = client->receive();
+      statuses.push_back(response.status);
+      if (response.status == 503) {
+        EXPECT_EQ(response.body, "overloaded: others waited for a thread while this body came slowly");
+      }
+    }
+    EXPECT_EQ(std::count(statuses.begin(), statuses.end(), 503), 1);
+    EXPECT_EQ(std::count(statuses.begin(), statuses.end(), 200), 1);
+  }
+}
+TEST(Lanes, ends_slow_readers_for_those_who_wait) {
+  RunningTransport server(two_threads());
+  const Clients busy = send_from_two(server.port, get("/large"), 4096);
+  ASSERT_TRUE(both_threads_are_taken(server));
+  EXPECT_EQ(ask(server.port, get("/a")).status, 200);
+  EXPECT_EQ(server.service.broken_off, 1);
+}
+TEST(Lanes, ends_the_slower_of_two_bodies) {
+  TransportOptions options = two_threads();
+  options.max_body_bytes = 5'000'000;
+  const RunningTransport server(options, 50'000'000);
+  RawClient large(server.port), drip(server.port);
+  large.send("POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 4000009\r\n\r\n" +
+             std::string(4'000'000, 'a'));
+  drip.send(kSlowBody);
+  ASSERT_TRUE(both_threads_are_taken(server));
+  EXPECT_EQ(ask(server.port, get("/a")).status, 200);
+  EXPECT_EQ(drip.receive().status, 503);
+  large.send("123456789");
+  EXPECT_EQ(large.receive().body, "4000009");
+}
+TEST(Lanes, leaves_slow_bodies_alone_while_nobody_waits) {
+  const RunningTransport server(two_threads());
+  const Clients busy = send_from_two(server.port, kSlowBody);
+  ASSERT_TRUE(both_threads_are_taken(server));
+  std::this_thread::sleep_for(TransferTime::kGraceWhenAsked + milliseconds(300));
+  for (const auto& client : busy) {
+    client->send("defghi");
+    EXPECT_EQ(client->receive().status, 200);
+  }
 }
 TEST(Lanes, reads_no_body_in_the_health_lane) {
   const RunningTransport server(two_threads());
