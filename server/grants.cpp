@@ -1,15 +1,10 @@
 #include "server/grants.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 namespace subdivd::server {
 namespace {
-
-// How soon a waiting request notices that it is cancelled, or that a place has become free by passing of
-// time.
-constexpr std::chrono::milliseconds kSlice{50};
 
 // A small request that has run for longer does not keep the next one waiting any more: a few bytes can ask
 // for seconds of work. So many may run at once in the end.
@@ -51,20 +46,9 @@ std::variant<std::shared_ptr<Grants::Grant>, Grants::Denied> Grants::enter(
   if (!pool.waiting.empty() || !fits()) {
     // One that comes again has waited before, and has been computed in part.
     if (wish.bytes == 0 && pool.waiting.size() >= max_waiting_) return Denied::full;
-    const std::uint64_t number = next_number_++;
-    pool.waiting.push_back(number);
-    const auto my_turn = [&] { return pool.waiting.front() == number && fits(); };
-    std::optional<Denied> denied;
-    while (!denied && !my_turn()) {
-      changed_.wait_until(lock, std::min(deadline, Clock::now() + kSlice), my_turn);
-      if (cancelled != nullptr && *cancelled)
-        denied = Denied::cancelled;
-      else if (Clock::now() >= deadline)
-        denied = Denied::too_late;
-    }
-    pool.waiting.erase(std::find(pool.waiting.begin(), pool.waiting.end(), number));
-    changed_.notify_all();  // the next in line may find its turn come
-    if (denied) return *denied;
+    const WaitingLine::End end = pool.waiting.wait(lock, deadline, cancelled, fits);
+    if (end == WaitingLine::End::cancelled) return Denied::cancelled;
+    if (end == WaitingLine::End::too_late) return Denied::too_late;
   }
   pool.running.push_back(grant.get());
   grant->has_place_ = true;
@@ -99,7 +83,7 @@ void Grants::Grant::keep_only(Count bytes) {
       lane_ = Lane::large;
     }
   }
-  grants_.changed_.notify_all();
+  for (Pool* pool : {&grants_.small_, &grants_.large_}) pool->waiting.changed();
 }
 
 Result<void> Grants::Grant::take(Count bytes) {

@@ -9,15 +9,14 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <variant>
 
 #include "core/base/budget.h"
+#include "server/transport/waiting_line.h"
 
 namespace subdivd::server {
 
@@ -92,8 +91,8 @@ class Grants {
   struct Pool {
     Count bytes = 0, free_bytes = 0;
     std::size_t places = 0;
-    std::deque<const Grant*> running;   // that have a place, the longest running first
-    std::deque<std::uint64_t> waiting;  // numbers drawn by those who wait, the longest waiting first
+    std::deque<const Grant*> running;  // that have a place, the longest running first
+    WaitingLine waiting;
   };
 
   Pool& pool(Lane lane) { return lane == Lane::small ? small_ : large_; }
@@ -102,10 +101,8 @@ class Grants {
 
   const std::size_t max_waiting_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
   Pool small_, large_;
   Count most_small_bytes_ = 0, granted_ = 0;
-  std::uint64_t next_number_ = 0;
 };
 
 }  // namespace subdivd::server

@@ -137,7 +137,8 @@ Engine::Engine(long long keep_alive_seconds) : keep_alive_seconds_(keep_alive_se
     out.headers.erase("Keep-Alive");
     out.headers.erase("Connection");
     out.set_header("Connection", close_ ? "close" : "keep-alive");
-    if (!close_) out.set_header("Keep-Alive", "timeout=" + std::to_string(keep_alive_seconds_));
+    if (!close_ && keep_alive_seconds_ > 0)
+      out.set_header("Keep-Alive", "timeout=" + std::to_string(keep_alive_seconds_));
     if (out.status == 204) out.headers.erase("Content-Length");
     out.headers.erase("Accept-Ranges");
     out.set_header("Accept-Ranges", "none");

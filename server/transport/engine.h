@@ -17,7 +17,7 @@ class Engine final : private httplib::Server {
  public:
   enum class Sent { whole, partly, nothing };
 
-  // `keep_alive_seconds` is announced on responses that keep the connection.
+  // `keep_alive_seconds` is announced on responses that keep the connection, unless it is 0.
   explicit Engine(long long keep_alive_seconds);
 
   // Sends the response, without its body when `head_only`, and frees it. `nothing`: not a byte has gone out,

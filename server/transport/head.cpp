@@ -13,18 +13,6 @@ namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
 
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), lower);
-  return result;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 Refusal bad(std::string detail) { return {400, "bad_request", std::move(detail)}; }
 
 // Does a comma-separated list hold `word` (lower-case)?

@@ -7,7 +7,7 @@
 namespace subdivd::server {
 namespace {
 
-// With the buffers of their heads this many take at most 32 MiB.
+// With heads of their own free kilobyte each these take a megabyte; longer heads are paid for.
 constexpr std::size_t kMostWaiting = 1024;
 // Threads come free all the time: only after that nobody is expected to make room by himself.
 constexpr std::chrono::milliseconds kOwnPatience{100};

@@ -1,14 +1,12 @@
 #pragma once
 // Bytes of memory that all requests share: what their bodies take while they are read and answered.
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <mutex>
+
+#include "server/transport/waiting_line.h"
 
 namespace subdivd::server {
 
@@ -66,12 +64,9 @@ class Quota {
   }
 
  private:
-  static constexpr std::chrono::milliseconds kSlice{
-      50};  // how soon a waiting one notices that it is cancelled
-
   bool take(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
-    if (bytes > free_ || !waiting_.empty()) return false;
+    if (bytes > free_ || !line_.empty()) return false;
     free_ -= bytes;
     return true;
   }
@@ -79,19 +74,10 @@ class Quota {
   bool wait(std::uint64_t bytes, Clock::time_point deadline, const std::atomic<bool>* cancelled) {
     if (bytes > total_) return false;
     std::unique_lock lock(mutex_);
-    const std::uint64_t number = next_number_++;
-    waiting_.push_back(number);
-    const auto my_turn = [&] { return waiting_.front() == number && bytes <= free_; };
-    bool given_up = false;
-    while (!given_up && !my_turn()) {
-      changed_.wait_until(lock, std::min(deadline, Clock::now() + kSlice), my_turn);
-      given_up = Clock::now() >= deadline || (cancelled != nullptr && *cancelled);
-    }
-    const bool taken = my_turn();
-    if (taken) free_ -= bytes;
-    waiting_.erase(std::find(waiting_.begin(), waiting_.end(), number));
-    changed_.notify_all();  // the next in line may find enough
-    return taken;
+    const auto is_there = [&] { return bytes <= free_; };
+    if (line_.wait(lock, deadline, cancelled, is_there) != WaitingLine::End::turn) return false;
+    free_ -= bytes;
+    return true;
   }
 
   void give_back(std::uint64_t bytes) {
@@ -99,14 +85,12 @@ class Quota {
       const std::lock_guard lock(mutex_);
       free_ += bytes;
     }
-    changed_.notify_all();
+    line_.changed();
   }
 
   const std::uint64_t total_;
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::uint64_t> waiting_;  // numbers drawn by those who wait, the longest waiting first
-  std::uint64_t next_number_ = 0;
+  WaitingLine line_;
   std::uint64_t free_;
 };
 

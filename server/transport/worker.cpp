@@ -93,8 +93,10 @@ Worker::After Worker::exchange(Connection& connection) {
   record_safely({request, sent == Engine::Sent::nothing ? 503 : status, size, whole,
                  milliseconds_since(request.arrived)});
   if (!close && whole) return After::keep;
-  const bool more_came = body_left || connection.socket().holds_unread();
-  return sent != Engine::Sent::partly && more_came ? After::linger : After::close;
+  // One who was told of the end only now may be sending the next request already: to be closed under it would
+  // destroy the answer on its way [RFC 9112, 9.6].
+  const bool more_comes = body_left || turn.head.keep_alive || connection.socket().holds_unread();
+  return sent != Engine::Sent::partly && more_comes ? After::linger : After::close;
 }
 
 Response Worker::respond(Connection& connection, BodyBuffer& buffer, bool& body_left) {

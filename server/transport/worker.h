@@ -30,7 +30,7 @@ class Worker {
  public:
   enum class After {
     keep,    // another request may follow
-    linger,  // nothing may follow, and the client has sent more than was read
+    linger,  // nothing may follow, but the client has sent more than was read, or may be sending it
     close
   };
 

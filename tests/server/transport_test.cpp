@@ -100,6 +100,12 @@ TEST(Transport, announces_how_long_it_keeps_a_connection) {
   EXPECT_EQ(ask(server.port, get("/a")).header("keep-alive"), "timeout=7");
   EXPECT_EQ(ask(server.port, get("/a", "Connection: close\r\n")).header("keep-alive"), "");
 }
+TEST(Transport, announces_no_time_that_is_shorter_than_a_second) {
+  const RunningTransport server;
+  const RawResponse response = ask(server.port, get("/a"));
+  EXPECT_EQ(response.header("connection"), "keep-alive");
+  EXPECT_EQ(response.header("keep-alive"), "");
+}
 TEST(Transport, closes_an_idle_connection) {
   const RunningTransport server;
   RawClient client(server.port);
@@ -115,6 +121,8 @@ TEST(Transport, closes_after_the_last_allowed_request) {
   client.send(get("/a") + get("/b"));
   EXPECT_EQ(client.receive().header("connection"), "keep-alive");
   EXPECT_EQ(client.receive().header("connection"), "close");
+  // Its third request may be on its way already.
+  EXPECT_TRUE(eventually([&] { return server.transport.state().lingering == 1; }));
 }
 TEST(Transport, gives_an_idle_connections_thread_to_one_that_waits) {
   TransportOptions options = quick_options();
