@@ -5,8 +5,8 @@
 #include <thread>
 #include <vector>
 
-#include "tests/bench/memory_count.h"
 #include "tests/bench/peers.h"
+#include "tests/support/allocations.h"
 
 namespace subdivd::bench {
 namespace {
@@ -227,12 +227,12 @@ double count_memory(const Case& cell, Results& results) {
   FarTiming far(cell.cage());
   const double percent = 100 / static_cast<double>(out.bytes());
   {
-    const MemoryCount count;
+    const test::Allocations count;
     run_ours(cell, 1, out);
     results.add(cell.name(), "memory", "ours", static_cast<double>(count.peak_bytes()) * percent);
   }
   {
-    const MemoryCount count;
+    const test::Allocations count;
     run_far(cell, far, out);
     results.add(cell.name(), "memory", "Far", static_cast<double>(count.peak_bytes()) * percent);
   }

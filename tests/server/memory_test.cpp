@@ -15,7 +15,7 @@
 #include "proto/curve_task.h"
 #include "proto/decode.h"
 #include "server/handlers/compute_curves.h"
-#include "tests/bench/memory_count.h"
+#include "tests/support/allocations.h"
 
 namespace subdivd::server {
 namespace {
@@ -60,7 +60,7 @@ Measured read(const std::string& body) {
   budget.memory = &ledger;
   Measured measured;
   {
-    const bench::MemoryCount count;
+    const test::Allocations count;
     const auto request = proto::decode_refine(body, proto::BodyKind::json, {}, {}, budget);
     measured.peak = static_cast<Count>(count.peak_bytes());
   }
@@ -152,7 +152,7 @@ Measured compute(Kind kind, const std::string& body) {
   auto request = proto::decode_curves(body, kind, {}, {});
   EXPECT_TRUE(request.ok()) << request.error().message;
   const auto predicted = predict_curve_task(*request, Count{1} << 40);
-  const bench::MemoryCount count;
+  const test::Allocations count;
   const auto encoded = [&]() -> Result<proto::Payload> {
     if (kind == Kind::measure) {
       auto measures = compute_measures(*request, budget);

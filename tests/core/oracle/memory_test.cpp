@@ -7,11 +7,14 @@
 #include "core/oracle/far_curves.h"
 #include "core/oracle/far_surfaces.h"
 #include "core/oracle/verify.h"
-#include "tests/core/oracle/allocations.h"
 #include "tests/core/oracle/fixtures.h"
+#include "tests/support/allocations.h"
 
 namespace subdivd::oracle::testing {
 namespace {
+
+using subdivd::test::Allocations;
+using subdivd::test::kCountsAllocations;
 
 struct Shape {
   const char* name;
@@ -81,7 +84,7 @@ std::int64_t peak_of(Work&& work) {
 constexpr const char* kWhyNot = "a sanitizer has an operator new of its own: nothing can be counted";
 
 TEST(Memory, of_verifying_stays_within_what_is_predicted) {
-  if (!kCounts) GTEST_SKIP() << kWhyNot;
+  if (!kCountsAllocations) GTEST_SKIP() << kWhyNot;
   for (const Shape& shape : worst_shapes()) {
     ASSERT_TRUE(shape.mesh.check().ok()) << shape.name;
     for (Index level = 0; level <= shape.deepest; ++level) {
@@ -102,7 +105,7 @@ TEST(Memory, of_verifying_stays_within_what_is_predicted) {
 }
 
 TEST(Memory, of_verifying_curves_stays_within_what_is_predicted) {
-  if (!kCounts) GTEST_SKIP() << kWhyNot;
+  if (!kCountsAllocations) GTEST_SKIP() << kWhyNot;
   for (const Index width : {1u, 3u, 17u})
     for (const CurveWrap wrap : {CurveWrap::pinned, CurveWrap::periodic})
       for (const Index level : {0u, 1u, 4u}) {
@@ -121,7 +124,7 @@ TEST(Memory, of_verifying_curves_stays_within_what_is_predicted) {
 }
 
 TEST(Memory, of_verifying_surfaces_stays_within_what_is_predicted) {
-  if (!kCounts) GTEST_SKIP() << kWhyNot;
+  if (!kCountsAllocations) GTEST_SKIP() << kWhyNot;
   for (const Index width : {1u, 3u, 4u})
     for (const CurveWrap wrap : {CurveWrap::pinned, CurveWrap::periodic})
       for (const Index level : {0u, 1u, 4u}) {
@@ -139,7 +142,7 @@ TEST(Memory, of_verifying_surfaces_stays_within_what_is_predicted) {
 
 // Every allocation in turn, Far's among them, is the one that there is no memory for.
 TEST(Memory, that_runs_out_is_neither_swallowed_nor_blamed_on_the_mesh) {
-  if (!kCounts) GTEST_SKIP() << kWhyNot;
+  if (!kCountsAllocations) GTEST_SKIP() << kWhyNot;
   const ControlMesh mesh = rich_mesh();
   std::int64_t count = 0;
   {
@@ -149,7 +152,7 @@ TEST(Memory, that_runs_out_is_neither_swallowed_nor_blamed_on_the_mesh) {
   }
   ASSERT_GT(count, 100);
   for (std::int64_t failing = 0; failing < count; ++failing) {
-    const Allocations allocations(failing);
+    const Allocations allocations({.at = failing});
     bool thrown = false;
     try {
       const auto report = verify<double>(mesh, everything(2), Budget{});

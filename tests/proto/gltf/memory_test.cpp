@@ -1,53 +1,17 @@
 // What reading holds at one time is asked for before it is allocated; and when there is none, nobody is
-// blamed. This program replaces operator new.
+// blamed.
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
-#include <atomic>
-#include <cstdlib>
+#include <cstdint>
 #include <new>
 
 #include "proto/gltf/json_tree.h"
 #include "tests/proto/gltf/attacks.h"
 #include "tests/proto/gltf/pipeline.h"
 #include "tests/proto/gltf/unlimited.h"
+#include "tests/support/allocations.h"
 #include "tests/support/gltf_builder.h"
-
-namespace {
-
-std::atomic<bool> counting{false};
-std::atomic<std::int64_t> live{0}, peak{0}, until_failure{-1}, ceiling{-1};
-
-void* counted(void* block) {
-  if (block == nullptr) throw std::bad_alloc();
-  if (!counting) return block;
-  const auto size = static_cast<std::int64_t>(malloc_usable_size(block));
-  if ((until_failure >= 0 && until_failure-- == 0) || (ceiling >= 0 && live + size > ceiling)) {
-    std::free(block);
-    throw std::bad_alloc();
-  }
-  live += size;
-  if (live > peak) peak = live.load();
-  return block;
-}
-
-void release(void* block) {
-  if (counting && block != nullptr) live -= static_cast<std::int64_t>(malloc_usable_size(block));
-  std::free(block);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  const auto step = static_cast<std::size_t>(alignment);
-  return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
-}
-void operator delete(void* block) noexcept { release(block); }
-void operator delete(void* block, std::size_t) noexcept { release(block); }
-void operator delete(void* block, std::align_val_t) noexcept { release(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { release(block); }
 
 namespace subdivd::test {
 namespace {
@@ -75,15 +39,10 @@ Use use_of(const std::string& body, Format format, const proto::Options& options
   Adding grant;
   Budget budget;
   budget.memory = &grant;
-  live = peak = 0;
-  counting = true;
   Use use;
-  {
-    const auto request = proto::gltf::read(body, format, options, {}, budget);
-    use.read = request.ok();
-  }
-  counting = false;
-  use.peak = peak;
+  const Allocations allocations;
+  use.read = proto::gltf::read(body, format, options, {}, budget).ok();
+  use.peak = allocations.peak_bytes();
   use.taken = static_cast<std::int64_t>(grant.sum());
   return use;
 }
@@ -186,17 +145,14 @@ TEST(Memory, of_strange_assets_is_asked_for) {
 // Reads it again and again, each time with a little more memory, until it is enough; returns how often.
 int readings_until_enough(const Body& body, std::int64_t step) {
   for (int i = 0;; ++i) {
-    live = 0;
-    ceiling = i * step;
-    counting = true;
     try {
-      const auto request = proto::gltf::read(body.bytes, body.format, {}, {});
-      counting = false;
+      const auto request = [&] {
+        const Allocations allocations({.beyond = i * step});
+        return proto::gltf::read(body.bytes, body.format, {}, {});
+      }();
       EXPECT_TRUE(request.ok()) << request.error().message;
-      ceiling = -1;
       return i;
     } catch (const std::bad_alloc&) {
-      counting = false;
     }
   }
 }
@@ -216,20 +172,18 @@ TEST(Memory, that_runs_out_at_any_place_is_no_fault_of_the_text) {
                            std::string(10000, 's') + R"(","d":{"e":null,"f":true}})";
   std::int64_t failures = 0;
   for (;; ++failures) {
-    until_failure = failures;
-    counting = true;
     try {
-      Unlimited unlimited;
-      const auto parsed = proto::gltf::parse_json(text, {}, unlimited.work);
-      counting = false;
+      const auto parsed = [&] {
+        Unlimited unlimited;
+        const Allocations allocations({.at = failures});
+        return proto::gltf::parse_json(text, {}, unlimited.work);
+      }();
       ASSERT_TRUE(parsed.ok()) << parsed.error().message;
       break;
     } catch (const std::bad_alloc&) {
-      counting = false;
     }
   }
   EXPECT_GT(failures, 20);
-  until_failure = -1;
 }
 
 }  // namespace
