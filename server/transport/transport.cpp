@@ -122,11 +122,16 @@ class Transport::Impl {
 
   void add_worker(Lane lane, std::chrono::milliseconds patience) {
     workers_.reserve(workers_.size() + 1);  // a thread that has no place in the list could not be joined
-    workers_.emplace_back([this, lane, patience] { work(lane, patience); });
+    count_thread(1);  // from here on, not from when it first runs: it is there, and stop() must wait for it
+    try {
+      workers_.emplace_back([this, lane, patience] { work(lane, patience); });
+    } catch (const std::system_error&) {
+      count_thread(-1);
+      throw;
+    }
   }
 
   void work(Lane lane, std::chrono::milliseconds patience) {
-    count_thread(1);
     {
       Worker worker(context_, patience);
       for (;;) {
