@@ -102,7 +102,7 @@ Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSiz
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
     if (auto stop = budget.poll()) return *stop;
     const Result<Count> size =
-        predict_bytes<Real>(request.curves[i], curve_options(request, request.curves[i]));
+        predict_bytes<Real>(request.curves[i], curve_options(request, request.curves[i]), budget);
     if (!size) return blame_input(request, size.error(), "curves", i);
     bytes += kPassingFactor * *size;
   }

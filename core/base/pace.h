@@ -3,6 +3,8 @@
 // thrown out. A ring of ten million edges has no place between its loops where a result could be handed up.
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -23,6 +25,13 @@ class Pace {
   Pace() = default;  // never stops
   explicit Pace(const Budget& budget) : budget_(&budget) {}
   explicit Pace(Worker& worker) : worker_(&worker) {}
+
+  // For parts of the work that take a budget; where they are stopped, their error is to be thrown as Stopped.
+  const Budget& budget() const {
+    static const Budget unlimited;
+    assert(worker_ == nullptr);
+    return budget_ != nullptr ? *budget_ : unlimited;
+  }
 
   // Call before `steps` more steps. Throws Stopped when there is no more to spend.
   void spend(Count steps) const {
@@ -71,6 +80,27 @@ class Pace {
                 from.begin() + static_cast<std::ptrdiff_t>(end));
     });
   }
+  // As to.insert(to.end(), ...), and as from.push_back() many times: an array that grows is moved as a whole.
+  template <class From, class Array>
+  void append(const From& from, Array& to) const {
+    make_room(to, from.size());
+    in_blocks(from.size(), [&](Count begin, Count end) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+                from.begin() + static_cast<std::ptrdiff_t>(end));
+    });
+  }
+  // Room for `more` elements behind those that there are, as the array itself would make it.
+  template <class Array>
+  void make_room(Array& array, Count more) const {
+    if (more <= array.capacity() - array.size()) return;
+    Array larger;
+    larger.reserve(std::max<Count>(2 * array.capacity(), array.size() + more));
+    in_blocks(array.size(), [&](Count begin, Count end) {
+      larger.insert(larger.end(), std::make_move_iterator(array.begin() + static_cast<std::ptrdiff_t>(begin)),
+                    std::make_move_iterator(array.begin() + static_cast<std::ptrdiff_t>(end)));
+    });
+    array.swap(larger);
+  }
   // As std::sort; `less` must be cheap. Stopped, the elements are in no order, and some may be lost.
   template <class Iterator, class Less>
   void sort(Iterator first, Iterator last, Less&& less) const {
@@ -85,6 +115,11 @@ class Pace {
   Worker* worker_ = nullptr;
   mutable Count spent_ = kBlock;  // the first call polls: a dead caller costs nothing
 };
+
+// Whether an error is no fault of the input: the work was stopped. It has no place in the input, then.
+inline bool is_stop(const Error& error) {
+  return error.code == ErrorCode::cancelled || error.code == ErrorCode::deadline_exceeded;
+}
 
 // f(pace), which returns a value or nothing; the error when it was stopped.
 template <class F>

@@ -1,10 +1,10 @@
 #include "core/curves/bases.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <string>
 
+#include "core/base/pace.h"
 #include "core/splines/bezier.h"
 #include "core/splines/degree.h"
 #include "core/splines/edit.h"
@@ -70,21 +70,30 @@ class Row {
 // Points numbered from `first` on, `count` of them, over whole knots the first of which is `knot`.
 template <class At>
 Spline uniform(Index degree, Index width, bool periodic, std::int64_t first, Count count, double knot,
-               At at) {
+               const Pace& pace, At at) {
   Spline spline{degree, width, false, periodic, {}, {}};
-  for (Count i = 0; i < count; ++i)
+  spline.points.reserve(count * width);
+  spline.knots.reserve(count + degree + 1);
+  for (Count i = 0; i < count; ++i) {
+    pace.spend(2 * Count{width});
     for (Index k = 0; k < width; ++k) spline.points.push_back(at(first + static_cast<std::int64_t>(i), k));
-  for (Count i = 0; i < count + degree + 1; ++i) spline.knots.push_back(knot + static_cast<double>(i));
+  }
+  pace.for_each(count + degree + 1, [&](Count i) { spline.knots.push_back(knot + static_cast<double>(i)); });
   return spline;
 }
 
-// Pieces of Bezier points over 0, 1, 2, ..., from `begin` on.
-Spline of_pieces(std::vector<BezierPiece> pieces, Index width, bool periodic, double begin) {
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    pieces[i].begin = begin + static_cast<double>(i);
-    pieces[i].end = begin + static_cast<double>(i + 1);
+// `count` pieces over 0, 1, 2, ..., from `begin` on: piece(i) makes the points of one.
+template <class Piece>
+Spline of_pieces(Count count, Index width, bool periodic, double begin, const Pace& pace, Piece&& piece) {
+  PieceChain chain(3, width, false, count);
+  for (Count i = 0; i < count; ++i) {
+    pace.spend(16 * (Count{width} + 1));
+    BezierPiece one = piece(i);
+    one.begin = begin + static_cast<double>(i);
+    one.end = begin + static_cast<double>(i + 1);
+    chain.add(one);
   }
-  Spline spline = spline_of(pieces, 3, width, false);
+  Spline spline = chain.finish();
   spline.periodic = periodic;
   return spline;
 }
@@ -131,10 +140,10 @@ namespace {
 
 // Of a curve that begins at `first` and ends at `last` but for rounding: with knots so that it does to the
 // bit.
-Spline pinned_at(Points first, Points last, const Spline& spline) {
-  const Result<Spline> whole = part(spline, spline.begin(), spline.end());
-  assert(whole.ok());
-  Spline pinned = *whole;
+Spline pinned_at(Points first, Points last, const Spline& spline, const Pace& pace) {
+  Result<Spline> whole = part(spline, spline.begin(), spline.end(), pace.budget());
+  if (!whole) throw Stopped{std::move(whole).error()};  // it cannot fail otherwise
+  Spline pinned = *std::move(whole);
   std::ranges::copy(first, pinned.points.begin());
   std::ranges::copy(last, pinned.points.end() - static_cast<std::ptrdiff_t>(last.size()));
   return pinned;
@@ -142,7 +151,7 @@ Spline pinned_at(Points first, Points last, const Spline& spline) {
 
 }  // namespace
 
-Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degree) {
+Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degree, const Pace& pace) {
   const Row row(points, width);
   const Index m = degree / 2, p = degree;
   const Count n = row.count();
@@ -152,10 +161,10 @@ Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degre
   const auto before = -static_cast<std::int64_t>(m);
   switch (wrap) {
     case CurveWrap::nonperiodic:
-      return uniform(p, width, false, 0, n, -half_support,
+      return uniform(p, width, false, 0, n, -half_support, pace,
                      [&](std::int64_t i, Index k) { return row.at(static_cast<Count>(i), k); });
     case CurveWrap::periodic:
-      return uniform(p, width, true, before, n + p, -static_cast<double>(m) - half_support,
+      return uniform(p, width, true, before, n + p, -static_cast<double>(m) - half_support, pace,
                      [&](std::int64_t i, Index k) { return row.around(i, k); });
     case CurveWrap::pinned:
       break;
@@ -164,28 +173,31 @@ Spline spline_of_bspline(Points points, Index width, CurveWrap wrap, Index degre
   if (odd)
     return pinned_at(
         first, last,
-        uniform(p, width, false, before, n + 2 * Count{m}, -static_cast<double>(m) - half_support,
-                [&](std::int64_t i, Index k) { return row.mirrored(i, k); }));
+        uniform(p, width, false, before, n + 2 * Count{m}, -static_cast<double>(m) - half_support, pace,
+                [&](std::int64_t i, Index k) { return row.mirrored(i, k); }),
+        pace);
   // d_j is centred on j + 1/2; the border is 0.
   return pinned_at(
       first, last,
       uniform(p, width, false, before, n - 2 + 2 * Count{m}, -static_cast<double>(m) + 0.5 - half_support,
-              [&](std::int64_t j, Index k) { return row.mirrored_beside(j, k); }));
+              pace, [&](std::int64_t j, Index k) { return row.mirrored_beside(j, k); }),
+      pace);
 }
 
-Spline spline_of_bezier(Points points, Index width, CurveWrap wrap) {
+Spline spline_of_bezier(Points points, Index width, CurveWrap wrap, const Pace& pace) {
   const Row row(points, width);
   const bool closed = wrap == CurveWrap::periodic;
   const Count segments = closed ? row.count() / 3 : (row.count() - 1) / 3;
-  std::vector<BezierPiece> pieces(segments);
-  for (Count s = 0; s < segments; ++s)
+  return of_pieces(segments, width, closed, 0, pace, [&](Count s) {
+    BezierPiece piece;
     for (Count i = 0; i < 4; ++i)
       for (Index k = 0; k < width; ++k)
-        pieces[s].points.push_back(row.around(static_cast<std::int64_t>(3 * s + i), k));
-  return of_pieces(std::move(pieces), width, closed, 0);
+        piece.points.push_back(row.around(static_cast<std::int64_t>(3 * s + i), k));
+    return piece;
+  });
 }
 
-Spline spline_of_catmull_rom(Points points, Index width, CurveWrap wrap, Spacing spacing) {
+Spline spline_of_catmull_rom(Points points, Index width, CurveWrap wrap, Spacing spacing, const Pace& pace) {
   const Row row(points, width);
   const auto n = static_cast<std::int64_t>(row.count());
   const auto point = [&](std::int64_t i) {
@@ -196,23 +208,23 @@ Spline spline_of_catmull_rom(Points points, Index width, CurveWrap wrap, Spacing
   };
   const std::int64_t first = wrap == CurveWrap::nonperiodic ? 1 : 0;
   const std::int64_t last = wrap == CurveWrap::periodic ? n : wrap == CurveWrap::pinned ? n - 1 : n - 2;
-  std::vector<BezierPiece> pieces;
-  for (std::int64_t i = first; i < last; ++i) {
-    const std::vector<double> a = point(i - 1), b = point(i), c = point(i + 1), d = point(i + 2);
-    pieces.push_back(
-        piece_of_tangents(b, tangent_at(a, b, c, spacing, true), c, tangent_at(b, c, d, spacing, false)));
-  }
-  return of_pieces(std::move(pieces), width, wrap == CurveWrap::periodic, static_cast<double>(first));
+  return of_pieces(static_cast<Count>(last - first), width, wrap == CurveWrap::periodic,
+                   static_cast<double>(first), pace, [&](Count s) {
+                     const std::int64_t i = first + static_cast<std::int64_t>(s);
+                     const std::vector<double> a = point(i - 1), b = point(i), c = point(i + 1),
+                                               d = point(i + 2);
+                     return piece_of_tangents(b, tangent_at(a, b, c, spacing, true), c,
+                                              tangent_at(b, c, d, spacing, false));
+                   });
 }
 
-Spline spline_of_hermite(Points points, Index width, CurveWrap wrap) {
+Spline spline_of_hermite(Points points, Index width, CurveWrap wrap, const Pace& pace) {
   const Count ends = points.size() / width / 2;
   const bool closed = wrap == CurveWrap::periodic;
   const auto entry = [&](Count i) { return points.subspan(i % (2 * ends) * width, width); };
-  std::vector<BezierPiece> pieces;
-  for (Count i = 0; i + (closed ? 0 : 1) < ends; ++i)
-    pieces.push_back(piece_of_tangents(entry(2 * i), entry(2 * i + 1), entry(2 * i + 2), entry(2 * i + 3)));
-  return of_pieces(std::move(pieces), width, closed, 0);
+  return of_pieces(ends - (closed ? 0 : 1), width, closed, 0, pace, [&](Count i) {
+    return piece_of_tangents(entry(2 * i), entry(2 * i + 1), entry(2 * i + 2), entry(2 * i + 3));
+  });
 }
 
 // --- Out of splines ---------------------------------------------------------------------------------------
@@ -223,7 +235,7 @@ Error no_such_curve(std::string message) {
   return Error{ErrorCode::unsupported, std::move(message), {}, 0, 0};
 }
 
-Result<std::vector<BezierPiece>> cubic_pieces(const Spline& spline, const Budget& budget) {
+Result<BezierPieces> cubic_pieces(const Spline& spline, const Budget& budget) {
   if (spline.rational)
     return no_such_curve("a curve with weights has no exact form without them; take nurbs");
   if (spline.degree > 3)
@@ -232,6 +244,20 @@ Result<std::vector<BezierPiece>> cubic_pieces(const Spline& spline, const Budget
   const auto cubic = elevate_degree(spline, 3 - spline.degree, budget);
   if (!cubic) return cubic.error();
   return bezier_pieces(*cubic, budget);
+}
+
+// Points for `each` of every piece, and as many more at the ends: write(pieces, points, pace) writes them.
+template <class Write>
+Result<std::vector<double>> points_of(const Spline& spline, Count each, const Budget& budget, Write&& write) {
+  const auto pieces = cubic_pieces(spline, budget);
+  if (!pieces) return pieces.error();
+  return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<double>> {
+    std::vector<double> points;
+    points.reserve((pieces->size() + 3) * each * spline.width);
+    const auto done = write(*pieces, points, [&] { pace.spend(16 * (Count{spline.width} + 1)); });
+    if (!done) return done.error();
+    return points;
+  });
 }
 
 // Sees to it that what ought to be equal is, and remembers how far it was from it.
@@ -289,77 +315,91 @@ std::vector<double> de_boor_point(const BezierPiece& piece, int j) {
 }  // namespace
 
 Result<std::vector<double>> bezier_points(const Spline& spline, const Budget& budget) {
-  const auto pieces = cubic_pieces(spline, budget);
-  if (!pieces) return pieces.error();
-  std::vector<double> points;
-  for (const BezierPiece& piece : *pieces) {
-    if (!points.empty()) points.resize(points.size() - spline.width);
-    append(points, piece.points);
-  }
-  return points;
+  const auto write = [&](const BezierPieces& pieces, std::vector<double>& points,
+                         auto spend) -> Result<void> {
+    for (Count s = 0; s < pieces.size(); ++s) {
+      spend();
+      if (!points.empty()) points.resize(points.size() - spline.width);
+      append(points, pieces.points(s));
+    }
+    return {};
+  };
+  return points_of(spline, 3, budget, write);
 }
 
 Result<std::vector<double>> bspline_points(const Spline& spline, double tolerance, const Budget& budget) {
-  const auto pieces = cubic_pieces(spline, budget);
-  if (!pieces) return pieces.error();
-  Agreement agreement;
-  std::vector<double> points;
-  for (const BezierPiece& piece : *pieces)
-    for (int j = 0; j < 4; ++j) {
-      const std::vector<double> point = de_boor_point(piece, j);
-      if (points.empty() || j == 3 || points.size() < std::size_t{4} * spline.width) {
-        append(points, point);
-        continue;
+  const auto write = [&](const BezierPieces& pieces, std::vector<double>& points,
+                         auto spend) -> Result<void> {
+    Agreement agreement;
+    for (Count s = 0; s < pieces.size(); ++s) {
+      const BezierPiece piece = pieces[s];
+      for (int j = 0; j < 4; ++j) {
+        spend();
+        const std::vector<double> point = de_boor_point(piece, j);
+        if (points.empty() || j == 3 || points.size() < std::size_t{4} * spline.width) {
+          append(points, point);
+          continue;
+        }
+        agreement.of(
+            point, Points(points).last((3 - static_cast<std::size_t>(j)) * spline.width).first(spline.width));
       }
-      agreement.of(point,
-                   Points(points).last((3 - static_cast<std::size_t>(j)) * spline.width).first(spline.width));
     }
-  if (auto fine = agreement.within(tolerance, "uniform cubic B-spline"); !fine)
-    return std::move(fine).error();
-  return points;
+    return agreement.within(tolerance, "uniform cubic B-spline");
+  };
+  return points_of(spline, 3, budget, write);
 }
 
 Result<std::vector<double>> catmull_rom_points(const Spline& spline, double tolerance, const Budget& budget) {
-  const auto pieces = cubic_pieces(spline, budget);
-  if (!pieces) return pieces.error();
   // The points of the curve, and one more at each end that gives it its tangent: c_{-1} = c_1 - 2 u.
   const auto beyond = [](Points from, const std::vector<double>& tangent, double sign) {
     return combined(1, from, -2 * sign, tangent);
   };
-  std::vector<double> points = beyond(control(pieces->front(), 3), first_tangent(pieces->front()), 1);
-  for (const BezierPiece& piece : *pieces) append(points, control(piece, 0));
-  append(points, control(pieces->back(), 3));
-  append(points, beyond(control(pieces->back(), 0), last_tangent(pieces->back()), -1));
-  Agreement agreement;
-  const Row row(points, spline.width);
-  for (std::size_t s = 0; s < pieces->size(); ++s)
-    for (const bool behind : {false, true}) {
-      const std::size_t i = s + 1 + (behind ? 1 : 0);
-      const auto at = [&](std::size_t j) { return Points(points).subspan(j * spline.width, spline.width); };
-      const std::vector<double> tangent = behind ? last_tangent((*pieces)[s]) : first_tangent((*pieces)[s]);
-      agreement.of(tangent, combined(0.5, at(i + 1), -0.5, at(i - 1)));
+  const auto write = [&](const BezierPieces& pieces, std::vector<double>& points,
+                         auto spend) -> Result<void> {
+    const BezierPiece front = pieces[0], back = pieces[pieces.size() - 1];
+    append(points, beyond(control(front, 3), first_tangent(front), 1));
+    for (Count s = 0; s < pieces.size(); ++s) {
+      spend();
+      append(points, pieces.points(s).first(spline.width));
     }
-  if (auto fine = agreement.within(tolerance, "uniform Catmull-Rom curve"); !fine)
-    return std::move(fine).error();
-  return points;
+    append(points, control(back, 3));
+    append(points, beyond(control(back, 0), last_tangent(back), -1));
+    Agreement agreement;
+    for (std::size_t s = 0; s < pieces.size(); ++s) {
+      spend();
+      const BezierPiece piece = pieces[s];
+      for (const bool behind : {false, true}) {
+        const std::size_t i = s + 1 + (behind ? 1 : 0);
+        const auto at = [&](std::size_t j) { return Points(points).subspan(j * spline.width, spline.width); };
+        const std::vector<double> tangent = behind ? last_tangent(piece) : first_tangent(piece);
+        agreement.of(tangent, combined(0.5, at(i + 1), -0.5, at(i - 1)));
+      }
+    }
+    return agreement.within(tolerance, "uniform Catmull-Rom curve");
+  };
+  return points_of(spline, 1, budget, write);
 }
 
 Result<std::vector<double>> hermite_points(const Spline& spline, double tolerance, const Budget& budget) {
-  const auto pieces = cubic_pieces(spline, budget);
-  if (!pieces) return pieces.error();
-  Agreement agreement;
-  std::vector<double> points;
-  for (std::size_t s = 0; s < pieces->size(); ++s) {
-    append(points, control((*pieces)[s], 0));
-    append(points, first_tangent((*pieces)[s]));
-    if (s > 0) agreement.of(last_tangent((*pieces)[s - 1]), first_tangent((*pieces)[s]));
-  }
-  append(points, control(pieces->back(), 3));
-  append(points, last_tangent(pieces->back()));
-  if (auto fine = agreement.within(tolerance, "chain of Hermite segments with one tangent at every point");
-      !fine)
-    return std::move(fine).error();
-  return points;
+  const auto write = [&](const BezierPieces& pieces, std::vector<double>& points,
+                         auto spend) -> Result<void> {
+    Agreement agreement;
+    std::vector<double> before;
+    for (std::size_t s = 0; s < pieces.size(); ++s) {
+      spend();
+      const BezierPiece piece = pieces[s];
+      const std::vector<double> tangent = first_tangent(piece);
+      append(points, control(piece, 0));
+      append(points, tangent);
+      if (s > 0) agreement.of(before, tangent);
+      before = last_tangent(piece);
+    }
+    const BezierPiece back = pieces[pieces.size() - 1];
+    append(points, control(back, 3));
+    append(points, before);
+    return agreement.within(tolerance, "chain of Hermite segments with one tangent at every point");
+  };
+  return points_of(spline, 2, budget, write);
 }
 
 }  // namespace subdivd

@@ -13,24 +13,28 @@
 #include <vector>
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/curves/control_curve.h"
 #include "core/splines/spline.h"
 
 namespace subdivd {
 
-// `points`: width scalars each, as many as the basis and the wrap need (assumed).
+// `points`: width scalars each, as many as the basis and the wrap need (assumed). With a pace, these throw
+// Stopped when it has no more to spend.
 //
 // Uniform B-splines: the domain is that of core/curves/control_curve.h. Pinned ones of odd degree have the
 // phantom points 2 c_0 - c_k, of even degree c_0 stands on the border: there d_{-1-k} = 2 c_0 - d_k, where
 // d_j = c_{j+1}; their ends stand degree + 1 times among the knots, so that the curve starts and ends at its
 // first and last point to the bit.
-Spline spline_of_bspline(std::span<const double> points, Index width, CurveWrap wrap, Index degree);
-Spline spline_of_bezier(std::span<const double> points, Index width, CurveWrap wrap);
+Spline spline_of_bspline(std::span<const double> points, Index width, CurveWrap wrap, Index degree,
+                         const Pace& pace = {});
+Spline spline_of_bezier(std::span<const double> points, Index width, CurveWrap wrap, const Pace& pace = {});
 // Pinned: phantom points 2 c_0 - c_1 before the first and behind the last. Points that coincide have no
 // direction between them: the tangent is the other neighbour's.
-Spline spline_of_catmull_rom(std::span<const double> points, Index width, CurveWrap wrap, Spacing spacing);
-Spline spline_of_hermite(std::span<const double> points, Index width, CurveWrap wrap);
+Spline spline_of_catmull_rom(std::span<const double> points, Index width, CurveWrap wrap, Spacing spacing,
+                             const Pace& pace = {});
+Spline spline_of_hermite(std::span<const double> points, Index width, CurveWrap wrap, const Pace& pace = {});
 
 // The curve in another basis, wrap nonperiodic, each span of the spline a segment of length 1: the points of
 // the curve are the same, its parameters those of the basis. unsupported where there is no such curve: a

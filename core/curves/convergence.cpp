@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/lane_riesenfeld.h"
 #include "core/curves/subdivision.h"
@@ -16,7 +17,6 @@ using Rows = std::vector<std::vector<double>>;
 
 constexpr double kTolerance = 2e-9;  // of the squared distance: 1e-9 of the distance
 constexpr int kMaxHalvings = 40;
-constexpr Count kStepsPerPoll = 256;  // pieces
 
 // --- The difference on half an interval -------------------------------------------------------------------
 
@@ -99,10 +99,11 @@ class SquaredLength {
 
 // Raises `best` to the polynomial's maximum on its interval, to kTolerance: values at ends are reached, the
 // largest coefficient is a bound; halves whose bound does not matter are left alone.   [LaneRiesenfeld81]
-void raise_to_maximum(const std::vector<double>& squares, int halvings, double& best) {
+void raise_to_maximum(const std::vector<double>& squares, int halvings, double& best, const Pace& pace) {
   best = std::max({best, squares.front(), squares.back()});
   const double bound = *std::max_element(squares.begin(), squares.end());
   if (bound <= best * (1 + kTolerance) || halvings == kMaxHalvings) return;
+  pace.spend(squares.size() * squares.size() / 2);
   std::vector<double> left(squares.size()), right = squares;
   for (std::size_t r = 0; r < squares.size(); ++r) {
     left[r] = right[0];
@@ -110,8 +111,8 @@ void raise_to_maximum(const std::vector<double>& squares, int halvings, double& 
   }
   // Whichever end is higher first: the other half is then often under the bound.
   const bool left_first = squares.front() >= squares.back();
-  raise_to_maximum(left_first ? left : right, halvings + 1, best);
-  raise_to_maximum(left_first ? right : left, halvings + 1, best);
+  raise_to_maximum(left_first ? left : right, halvings + 1, best, pace);
+  raise_to_maximum(left_first ? right : left, halvings + 1, best, pace);
 }
 
 // --- Second differences through the levels ----------------------------------------------------------------
@@ -134,28 +135,32 @@ struct Differences {
 };
 
 // Scaled to at most 1, so that squares neither overflow nor vanish.
-void normalize(Differences& differences) {
+void normalize(Differences& differences, const Pace& pace) {
+  std::vector<double>& values = differences.values;
   double largest = 0;
-  for (const double value : differences.values) largest = std::max(largest, std::abs(value));
+  pace.for_each(values.size(), [&](Count i) { largest = std::max(largest, std::abs(values[i])); });
   int exponent = 0;
   std::frexp(largest, &exponent);
-  for (double& value : differences.values) value = std::ldexp(value, -exponent);
+  pace.for_each(values.size(), [&](Count i) { values[i] = std::ldexp(values[i], -exponent); });
   differences.exponent += exponent;
 }
 
-Differences differences_of(const ControlCurves& curves, std::span<const double> points, bool dual) {
+Differences differences_of(const ControlCurves& curves, std::span<const double> points, bool dual,
+                           const Pace& pace) {
   const Index width = curves.width;
   const bool pinned = curves.wrap == CurveWrap::pinned, outer = pinned && dual;
   const Place total = static_cast<Place>(points.size() / width), n = outer ? total - 2 : total;
   const bool open = curves.wrap == CurveWrap::nonperiodic;
   Differences result{!open, open ? 1 : 0, width, {}, 0};
+  result.values.reserve(points.size() * (pinned ? 2 : 1));
   // Eighths: no difference of differences of doubles outgrows a double.
   const auto c = [&](Place place, Index k) {
     const Place i = outer ? place + 1 : (place + n) % n;
     return points[static_cast<std::size_t>(i) * width + k] / 8;
   };
   const auto end = [&](bool last, Index k) { return points[(last ? points.size() - width : 0) + k] / 8; };
-  for (Place place = result.first; place < n - result.first; ++place)
+  for (Place place = result.first; place < n - result.first; ++place) {
+    pace.spend(2 * Count{width});
     for (Index k = 0; k < width; ++k) {
       const bool at_first = pinned && place == 0, at_last = pinned && place == n - 1;
       if (!outer && (at_first || at_last)) {  // the curve is odd about this point
@@ -166,17 +171,20 @@ Differences differences_of(const ControlCurves& curves, std::span<const double> 
       const double out = at_last ? 2 * (end(true, k) - c(place, k)) : c(place + 1, k) - c(place, k);
       result.values.push_back(out - into);
     }
+  }
   result.exponent = 3;
   if (pinned)  // primal: places n, n+1, ... mirror n-2, n-3, ... 1; dual: n-1, n-2, ... 0
-    for (Place place = outer ? n - 1 : n - 2; place >= (outer ? 0 : 1); --place)
+    for (Place place = outer ? n - 1 : n - 2; place >= (outer ? 0 : 1); --place) {
+      pace.spend(width);
       for (Index k = 0; k < width; ++k)
         result.values.push_back(-result.values[static_cast<std::size_t>(place) * width + k]);
+    }
   return result;
 }
 
 // One step of the scheme of degree p - 2 and a division by 4 (in the exponent). Child m of the differences
 // has the place m among the points, but for the missing ones at the front of an open curve.
-Result<void> refine_differences(int degree, Differences& differences, const Budget& budget) {
+void refine_differences(int degree, Differences& differences, const Pace& pace) {
   const int lower = degree - 2, h = (lower + 1) / 2;
   // Degree 0 has the mask (1, 1): both children are the point.
   const std::vector<double> mask =
@@ -185,10 +193,9 @@ Result<void> refine_differences(int degree, Differences& differences, const Budg
   const Place n = differences.count(), missing = differences.ring ? 0 : lower / 2;
   const Place children = differences.ring ? 2 * n : 2 * n - lower;
   Differences next{differences.ring, 0, width, {}, differences.exponent - 2};
-  next.values.resize(static_cast<std::size_t>(children) * width);
+  pace.fill(next.values, static_cast<std::size_t>(children) * width, 0);
   for (Place place = 0; place < children; ++place) {
-    if (static_cast<Count>(place) % (16 * kStepsPerPoll) == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(mask.size() * width / 2);
     const Place m = place + missing;
     double* to = next.values.data() + static_cast<std::size_t>(place) * width;
     // Weight k of the mask belongs to the parent i with m - 2i = k - h.
@@ -200,7 +207,6 @@ Result<void> refine_differences(int degree, Differences& differences, const Budg
   // The row still begins one place inside the points.
   next.first = differences.first;
   differences = std::move(next);
-  return {};
 }
 
 // --- One level --------------------------------------------------------------------------------------------
@@ -222,15 +228,13 @@ Domain domain_of(const ControlCurves& curves, Count points, Index level) {
 
 class LevelMeter {
  public:
-  LevelMeter(int degree, const Budget& budget)
-      : degree_(degree), budget_(budget), rows_(difference_rows(degree)), squared_(degree) {}
+  LevelMeter(int degree, const Pace& pace)
+      : degree_(degree), pace_(pace), rows_(difference_rows(degree)), squared_(degree) {}
 
   // The largest distance in units of 2^differences.exponent.
-  Result<double> largest(const Differences& differences, Domain domain) {
+  double largest(const Differences& differences, Domain domain) {
     double best = 0;
     for (Place place = domain.begin; place < domain.end; ++place) {
-      if (static_cast<Count>(place - domain.begin) % kStepsPerPoll == 0)
-        if (auto stop = budget_.poll()) return *stop;
       if (place + 1 < domain.end || domain.outer_halves) raise(differences, place, 1, best);
       if (place > domain.begin || domain.outer_halves) raise(differences, place, -1, best);
     }
@@ -241,6 +245,7 @@ class LevelMeter {
   // The half interval behind (1) or before (-1) a point: the latter is the former seen from the other side.
   void raise(const Differences& differences, Place place, int side, double& best) {
     const Index width = differences.width;
+    pace_.spend(rows_.size() * rows_.size() * (Count{width} + 1) * 2);
     coefficients_.assign((static_cast<std::size_t>(degree_) + 1) * width, 0);
     const int m = degree_ / 2;
     for (std::size_t k = 0; k < rows_.size(); ++k)
@@ -250,11 +255,11 @@ class LevelMeter {
         for (Index c = 0; c < width; ++c) coefficients_[k * width + c] += rows_[k][j] * from[c];
       }
     squared_.of(coefficients_, width, squares_);
-    raise_to_maximum(squares_, 0, best);
+    raise_to_maximum(squares_, 0, best, pace_);
   }
 
   int degree_;
-  const Budget& budget_;
+  const Pace& pace_;
   Rows rows_;
   SquaredLength squared_;
   std::vector<double> coefficients_, squares_;
@@ -306,24 +311,24 @@ Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve
     result.ratios.assign(levels, 0);
     return result;
   }
-  const Count points = curves.points_of_curve(curve);
-  const std::span<const double> all(curves.points);
-  Differences differences = differences_of(curves, all.subspan(first * curves.width, points * curves.width),
-                                           curves.degree % 2 == 0);
-  normalize(differences);
-  LevelMeter meter(degree, budget);
-  for (Index level = 0; level <= levels; ++level) {
-    if (level > 0)
-      if (auto done = refine_differences(degree, differences, budget); !done) return done.error();
-    const auto distance = meter.largest(differences, domain_of(curves, points, level));
-    if (!distance) return distance.error();
-    result.distances.push_back(std::ldexp(*distance, differences.exponent));
-    if (!std::isfinite(result.distances.back())) return does_not_fit();
-    if (level == 0) continue;
-    const double before = result.distances[level - 1];
-    result.ratios.push_back(before > 0 ? result.distances[level] / before : 0);
-  }
-  return result;
+  return stoppable(budget, [&](const Pace& pace) -> Result<Convergence> {
+    const Count points = curves.points_of_curve(curve);
+    const std::span<const double> all(curves.points);
+    Differences differences = differences_of(curves, all.subspan(first * curves.width, points * curves.width),
+                                             curves.degree % 2 == 0, pace);
+    normalize(differences, pace);
+    LevelMeter meter(degree, pace);
+    for (Index level = 0; level <= levels; ++level) {
+      if (level > 0) refine_differences(degree, differences, pace);
+      const double distance = meter.largest(differences, domain_of(curves, points, level));
+      result.distances.push_back(std::ldexp(distance, differences.exponent));
+      if (!std::isfinite(result.distances.back())) return does_not_fit();
+      if (level == 0) continue;
+      const double before = result.distances[level - 1];
+      result.ratios.push_back(before > 0 ? result.distances[level] / before : 0);
+    }
+    return std::move(result);
+  });
 }
 
 }  // namespace subdivd

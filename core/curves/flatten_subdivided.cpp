@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/all_finite.h"
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/corner_cutting.h"
 #include "core/curves/curve_window.h"
@@ -28,16 +29,17 @@ struct LocalCurve {
   double corner_rounding = 0;  // of a corner that is moved to its place, local
 };
 
-LocalCurve local_curve(const SubdividedCurve& curve) {
+LocalCurve local_curve(const SubdividedCurve& curve, const Pace& pace) {
   const Index width = curve.dimension();
-  LocalCurve local{{curve.points.begin(), curve.points.end()}, std::vector<double>(width), 0, 0};
+  LocalCurve local{{}, std::vector<double>(width), 0, 0};
+  pace.copy(curve.points, local.points);
   std::vector<double> largest(width), radius(width);
   for (Index k = 0; k < width; ++k) {
     double low = curve.points[k], high = low;
-    for (Count i = k; i < curve.points.size(); i += width) {
-      low = std::min(low, curve.points[i]);
-      high = std::max(high, curve.points[i]);
-    }
+    pace.for_each(curve.point_count(), [&](Count i) {
+      low = std::min(low, curve.points[i * width + k]);
+      high = std::max(high, curve.points[i * width + k]);
+    });
     local.centre[k] = low / 2 + high / 2;
     largest[k] = std::max(std::abs(low), std::abs(high));
     // Halves: the difference of two doubles may outgrow one.
@@ -45,8 +47,9 @@ LocalCurve local_curve(const SubdividedCurve& curve) {
   }
   const double widest = *std::ranges::max_element(radius);
   if (widest > 0) local.exponent = std::ilogb(widest) + 2;
-  for (Count i = 0; i < local.points.size(); ++i)
+  pace.for_each(local.points.size(), [&](Count i) {
     local.points[i] = std::ldexp(local.points[i] / 2 - local.centre[i % width] / 2, 1 - local.exponent);
+  });
   double square = 0;
   for (Index k = 0; k < width; ++k) {
     if (radius[k] == 0) continue;  // stays where it is
@@ -168,21 +171,22 @@ struct Limits {
 // Adds the corners behind the begin of one cell, in local coordinates. `waiting`: cells still to come.
 template <class Parts>
 Result<void> add_cell(const Parts& parts, Part cell, const LocalCurve& local, const Limits& limits,
-                      Count waiting, const Budget& budget, Polyline& polyline) {
+                      Count waiting, const Pace& pace, Polyline& polyline) {
   double largest = 1;  // of the curve's points; those that continue it can be larger
   for (const double x : cell.points) largest = std::max(largest, std::abs(x));
   std::vector<Part> ahead;  // the next one last; never more than one per level
   ahead.push_back(std::move(cell));
-  for (Count steps = 1; !ahead.empty(); ++steps) {
-    if (steps % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+  while (!ahead.empty()) {
+    pace.spend(16 * (Count{parts.width} + 4));
     const Part part = std::move(ahead.back());
     ahead.pop_back();
     const double rounded = 2 * rounding(parts, part.level, largest) + local.corner_rounding;
     if (parts.off_chord(part.points) + rounded <= limits.tolerance) {
       const Count corners = polyline.parameters.size() + 1 + ahead.size() + waiting;
       if (corners > limits.most) return too_many_corners(corners, limits.most);
+      pace.make_room(polyline.parameters, 1);
       polyline.parameters.push_back(part.end);
+      pace.make_room(polyline.points, parts.width);
       const std::vector<double> corner = parts.end(part.points, true);
       polyline.points.insert(polyline.points.end(), corner.begin(), corner.end());
       continue;
@@ -198,33 +202,43 @@ Result<void> add_cell(const Parts& parts, Part cell, const LocalCurve& local, co
 // Corners to their places; `of_cells`: the numbers of those between cells.
 template <class Parts>
 Result<void> finish(const SubdividedCurve& curve, const LocalCurve& local, std::span<const Count> of_cells,
-                    Polyline& polyline) {
+                    const Pace& pace, Polyline& polyline) {
   const Index width = curve.dimension();
   std::vector<double>& points = polyline.points;
-  for (Count i = 0; i < points.size(); ++i)
+  pace.for_each(points.size(), [&](Count i) {
     points[i] = local.centre[i % width] + std::ldexp(points[i], local.exponent);
+  });
   const auto put = [&](Count corner, Count control) {
     const std::span<const double> from = curve.points.subspan(control % curve.point_count() * width, width);
     std::ranges::copy(from, points.begin() + static_cast<std::ptrdiff_t>(corner * width));
   };
   if (Parts::kInterpolates) {
     const auto first = static_cast<Count>(curve.begin());
-    for (Count i = 0; i < of_cells.size(); ++i) put(of_cells[i], first + i);
+    pace.in_blocks(
+        of_cells.size(),
+        [&](Count begin, Count end) {
+          for (Count i = begin; i < end; ++i) put(of_cells[i], first + i);
+        },
+        width);
   } else if (curve.rule->wrap == CurveWrap::pinned) {
     put(0, 0);
     put(of_cells.back(), curve.point_count() - 1);
   }
-  if (!all_finite(std::span<const double>(points))) return does_not_fit();
+  bool finite = true;
+  pace.in_blocks(points.size(), [&](Count begin, Count end) {
+    finite = finite && all_finite(std::span<const double>(points).subspan(begin, end - begin));
+  });
+  if (!finite) return does_not_fit();
   return {};
 }
 
 template <class Parts>
 Result<Polyline> flatten_by(const Parts& parts, const SubdividedCurve& curve, const FlattenOptions& options,
-                            const Budget& budget) {
+                            const Budget& budget, const Pace& pace) {
   const Index width = curve.dimension();
   const auto cells = static_cast<Count>(curve.end() - curve.begin());
   const Count fitting = budget.max_bytes / ((Count{width} + 1) * sizeof(double));
-  const LocalCurve local = local_curve(curve);
+  const LocalCurve local = local_curve(curve, pace);
   // Exact: a curve that is but a point, and the polygon that tension 0 gives.
   const bool exact = local.corner_rounding == 0 || parts.is_polygon();
   const Limits limits{options, exact ? HUGE_VAL : std::ldexp(options.tolerance, -local.exponent),
@@ -246,11 +260,12 @@ Result<Polyline> flatten_by(const Parts& parts, const SubdividedCurve& curve, co
       polyline.parameters = {begin};
       polyline.points = parts.end(cell.points, false);
     }
-    const auto added = add_cell(parts, std::move(cell), local, limits, cells - 1 - k, budget, polyline);
+    const auto added = add_cell(parts, std::move(cell), local, limits, cells - 1 - k, pace, polyline);
     if (!added) return added.error();
+    pace.make_room(of_cells, 1);
     of_cells.push_back(polyline.parameters.size() - 1);
   }
-  if (auto done = finish<Parts>(curve, local, of_cells, polyline); !done) return done.error();
+  if (auto done = finish<Parts>(curve, local, of_cells, pace, polyline); !done) return done.error();
   return polyline;
 }
 
@@ -258,9 +273,11 @@ Result<Polyline> flatten_by(const Parts& parts, const SubdividedCurve& curve, co
 
 Result<Polyline> flatten(const SubdividedCurve& curve, const FlattenOptions& options, const Budget& budget) {
   if (auto checked = check_tolerance(options); !checked) return checked.error();
-  if (curve.rule->basis == CurveBasis::four_point)
-    return flatten_by(FourPointParts{curve.rule->tension, curve.dimension()}, curve, options, budget);
-  return flatten_by(CornerCuttingParts{curve.rule->ratio, curve.dimension()}, curve, options, budget);
+  return stoppable(budget, [&](const Pace& pace) {
+    if (curve.rule->basis == CurveBasis::four_point)
+      return flatten_by(FourPointParts{curve.rule->tension, curve.dimension()}, curve, options, budget, pace);
+    return flatten_by(CornerCuttingParts{curve.rule->ratio, curve.dimension()}, curve, options, budget, pace);
+  });
 }
 
 }  // namespace subdivd

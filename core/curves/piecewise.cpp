@@ -5,19 +5,14 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/all_finite.h"
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/bases.h"
-#include "core/splines/bezier.h"
-#include "core/splines/bspline.h"
 #include "core/splines/edit.h"
-#include "core/splines/knot_insertion.h"
 
 namespace subdivd {
 namespace {
-
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
-}
 
 Error fault(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where), 0, 0};
@@ -32,14 +27,17 @@ std::span<const double> points_at(const ControlCurves& curves, Count curve, Coun
 }
 
 // The whole of curve `curve` on its knots, unchecked.
-Spline spline_on_knots(const ControlCurves& curves, Count curve, CurvePlace place) {
+Spline spline_on_knots(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
   const Count count = curves.points_of_curve(curve);
   const std::span<const double> points = points_at(curves, curve, place.points);
-  Spline spline{order_of(curves, curve) - 1, curves.width, false, false, {}, {points.begin(), points.end()}};
-  const auto knots = std::span(curves.knots).subspan(place.knots, count + order_of(curves, curve));
-  spline.knots.assign(knots.begin(), knots.end());
-  if (curves.weights.empty()) return spline;
-  spline.points = homogeneous(points, curves.width, std::span(curves.weights).subspan(place.points, count));
+  Spline spline{order_of(curves, curve) - 1, curves.width, false, false, {}, {}};
+  pace.copy(std::span(curves.knots).subspan(place.knots, count + order_of(curves, curve)), spline.knots);
+  if (curves.weights.empty()) {
+    pace.copy(points, spline.points);
+    return spline;
+  }
+  spline.points =
+      homogeneous(points, curves.width, std::span(curves.weights).subspan(place.points, count), pace);
   spline.rational = true;
   ++spline.width;
   return spline;
@@ -81,7 +79,7 @@ Result<void> check_count(const ControlCurves& curves, Count count, const Path& w
 }
 
 // All lengths that must agree before any curve can be looked at.
-Result<void> check_lengths(const ControlCurves& curves) {
+Result<void> check_lengths(const ControlCurves& curves, const Pace& pace) {
   const Count count = curves.curve_count();
   if (curves.orders.size() != 1 && curves.orders.size() != count)
     return fault(ErrorCode::wrong_length,
@@ -90,6 +88,7 @@ Result<void> check_lengths(const ControlCurves& curves) {
                  {"order"});
   Count knots = 0;
   for (Count c = 0; c < count; ++c) {
+    pace.spend(1);
     const Index order = order_of(curves, c);
     if (order < 2 || order > kMaxDegree + 1)
       return fault(ErrorCode::out_of_range,
@@ -137,34 +136,37 @@ Path shifted(Path where, const ControlCurves& curves, Count curve, CurvePlace pl
   return where;
 }
 
-Result<void> check_weights(const ControlCurves& curves) {
-  for (Count i = 0; i < curves.weights.size(); ++i)
-    if (!(curves.weights[i] > 0) || !std::isfinite(curves.weights[i]))
-      return fault(std::isfinite(curves.weights[i]) ? ErrorCode::out_of_range : ErrorCode::not_finite,
-                   "weight " + std::to_string(i) + " is " + std::to_string(curves.weights[i]) +
-                       "; weights are finite numbers above 0",
-                   {"pointWeights", std::uint64_t{i}});
+Result<void> check_weights(const ControlCurves& curves, const Pace& pace) {
+  for (Count i = 0; i < curves.weights.size(); ++i) {
+    pace.spend(1);
+    const double weight = curves.weights[i];
+    if (weight > 0 && std::isfinite(weight)) continue;
+    return fault(std::isfinite(weight) ? ErrorCode::out_of_range : ErrorCode::not_finite,
+                 "weight " + std::to_string(i) + " is " + std::to_string(weight) +
+                     "; weights are finite numbers above 0",
+                 {"pointWeights", std::uint64_t{i}});
+  }
   return {};
 }
 
-// The largest curve as a spline of its own.
-Result<void> take_spline(const ControlCurves& curves, const Budget& budget) {
+// Bytes of the largest curve as a spline of its own.
+Count largest_spline(const ControlCurves& curves, const Pace& pace) {
   Count most = 0;
-  for (Count c = 0; c < curves.curve_count(); ++c) most = std::max(most, curves.points_of_curve(c));
-  return budget.take_memory((most * (Count{curves.width} + 2) + kMaxDegree + 1) * sizeof(double));
+  pace.for_each(curves.curve_count(), [&](Count c) { most = std::max(most, curves.points_of_curve(c)); });
+  return (most * (Count{curves.width} + 2) + kMaxDegree + 1) * sizeof(double);
 }
 
-Result<void> check_on_knots(const ControlCurves& curves, const Budget& budget) {
-  if (auto fine = check_lengths(curves); !fine) return fine;
-  if (auto fine = check_weights(curves); !fine) return fine;
-  if (auto taken = take_spline(curves, budget); !taken) return taken;
-  BudgetPoller poller(budget);
+Result<void> check_on_knots(const ControlCurves& curves, const Budget& budget, const Pace& pace) {
+  if (auto fine = check_lengths(curves, pace); !fine) return fine;
+  if (auto fine = check_weights(curves, pace); !fine) return fine;
+  if (auto taken = budget.take_memory(largest_spline(curves, pace)); !taken) return taken;
   CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); ++c) {
-    if (auto stop = poller.spend(curves.points_of_curve(c))) return *stop;
-    const Spline spline = spline_on_knots(curves, c, place);
-    if (auto fine = spline.check(); !fine) {
-      fine.error().where = shifted(std::move(fine.error().where), curves, c, place);
+    pace.spend(1);
+    const Spline spline = spline_on_knots(curves, c, place, pace);
+    if (auto fine = spline.check(budget); !fine) {
+      if (!is_stop(fine.error()))
+        fine.error().where = shifted(std::move(fine.error().where), curves, c, place);
       return fine;
     }
     if (!curves.ranges.empty()) {
@@ -188,9 +190,14 @@ CurvePlace next_place(const ControlCurves& curves, Count curve, CurvePlace place
   return {place.points + points, place.knots + knots};
 }
 
-std::vector<CurvePlace> curve_places(const ControlCurves& curves) {
-  std::vector<CurvePlace> places(curves.curve_count());
-  for (Count c = 1; c < places.size(); ++c) places[c] = next_place(curves, c - 1, places[c - 1]);
+std::vector<CurvePlace> curve_places(const ControlCurves& curves, const Pace& pace) {
+  std::vector<CurvePlace> places;
+  places.reserve(curves.curve_count());
+  CurvePlace place;
+  pace.for_each(curves.curve_count(), [&](Count c) {
+    places.push_back(place);
+    place = next_place(curves, c, place);
+  });
   return places;
 }
 
@@ -209,52 +216,62 @@ Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget) 
                  "the counts of curveVertexCounts add up to " + std::to_string(taken) + "; there are " +
                      std::to_string(curves.point_count()) + " points",
                  {"curveVertexCounts"});
-  return curves.basis == CurveBasis::nurbs ? check_on_knots(curves, budget) : Result<void>();
+  if (curves.basis != CurveBasis::nurbs) return {};
+  return stoppable(budget, [&](const Pace& pace) { return check_on_knots(curves, budget, pace); });
 }
 
 namespace {
 
-Result<Spline> made_of(const ControlCurves& curves, Count curve, CurvePlace place) {
+Result<Spline> made_of(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
   const std::span<const double> points = points_at(curves, curve, place.points);
   switch (curves.basis) {
     case CurveBasis::bspline:
-      return spline_of_bspline(points, curves.width, curves.wrap, curves.degree);
+      return spline_of_bspline(points, curves.width, curves.wrap, curves.degree, pace);
     case CurveBasis::corner_cutting:
-      if (curves.ratio == 0.25) return spline_of_bspline(points, curves.width, curves.wrap, 2);
+      if (curves.ratio == 0.25) return spline_of_bspline(points, curves.width, curves.wrap, 2, pace);
       return fault(ErrorCode::unsupported,
                    "corner cutting at another ratio than 1/4 makes a curve without a formula", {"ratio"});
     case CurveBasis::four_point:
       return fault(ErrorCode::unsupported, "a four-point curve has no formula; it can be refined only",
                    {"basis"});
     case CurveBasis::bezier:
-      return spline_of_bezier(points, curves.width, curves.wrap);
+      return spline_of_bezier(points, curves.width, curves.wrap, pace);
     case CurveBasis::catmull_rom:
-      return spline_of_catmull_rom(points, curves.width, curves.wrap, curves.spacing);
+      return spline_of_catmull_rom(points, curves.width, curves.wrap, curves.spacing, pace);
     case CurveBasis::hermite:
-      return spline_of_hermite(points, curves.width, curves.wrap);
+      return spline_of_hermite(points, curves.width, curves.wrap, pace);
     case CurveBasis::nurbs:
       break;
   }
-  Spline spline = spline_on_knots(curves, curve, place);
+  Spline spline = spline_on_knots(curves, curve, place, pace);
   if (curves.ranges.empty()) return spline;
   const double from = curves.ranges[2 * curve], to = curves.ranges[2 * curve + 1];
   if (from == spline.begin() && to == spline.end()) return spline;
-  return part(spline, from, to);
+  return part(spline, from, to, pace.budget());
 }
 
 }  // namespace
 
-Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place) {
+Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place, const Budget& budget) {
   assert(curve < curves.curve_count());
-  auto spline = made_of(curves, curve, place);
-  // Phantom points and tangents are up to three times as large as what was given.
-  if (spline && !all_finite(spline->points)) return does_not_fit();
-  return spline;
+  return stoppable(budget, [&](const Pace& pace) {
+    auto spline = made_of(curves, curve, place, pace);
+    if (!spline) return spline;
+    // Phantom points and tangents are up to three times as large as what was given.
+    bool finite = true;
+    const std::span<const double> points(spline->points);
+    pace.in_blocks(points.size(), [&](Count begin, Count end) {
+      finite = finite && all_finite(points.subspan(begin, end - begin));
+    });
+    if (!finite) return Result<Spline>(does_not_fit());
+    return spline;
+  });
 }
 
 namespace {
 
-Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, Index level) {
+Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, Index level,
+                    const Pace& pace) {
   const Count count = curves.points_of_curve(curve), parts = Count{1} << level;
   const bool closed = curves.wrap == CurveWrap::periodic;
   switch (curves.basis) {
@@ -267,94 +284,32 @@ Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, 
     default:
       break;
   }
-  // Of a whole curve on knots the knots tell, without a copy of its points.
-  if (curves.basis == CurveBasis::nurbs && curves.ranges.empty()) {
-    const double* const knots = curves.knots.data() + place.knots;
-    Count spans = 0;
-    for (Count k = order_of(curves, curve) - Count{1}; k < count; ++k) spans += knots[k] < knots[k + 1];
-    return count + spans * (parts - 1);
-  }
-  const Result<Spline> spline = spline_of(curves, curve, place);
-  return spline ? refined_point_count(*spline, level) : 0;
+  // On knots the knots tell, without a copy of the points.
+  const Count order = order_of(curves, curve);
+  const std::span<const double> knots = std::span(curves.knots).subspan(place.knots, count + order);
+  double from = knots[order - 1], to = knots[count];
+  const bool whole =
+      curves.ranges.empty() || (curves.ranges[2 * curve] == from && curves.ranges[2 * curve + 1] == to);
+  if (!whole) from = curves.ranges[2 * curve], to = curves.ranges[2 * curve + 1];
+  Count inside = 0, breaks = 0;  // knots inside the range; different ones
+  pace.for_each(knots.size(), [&](Count k) {
+    if (!(knots[k] > from && knots[k] < to)) return;
+    ++inside;
+    breaks += knots[k] < knots[k + 1];
+  });
+  return (whole ? count : inside + order) + (breaks + 1) * (parts - 1);
 }
 
 }  // namespace
 
-Count refined_piecewise_count(const ControlCurves& curves, Index level) {
+Count refined_piecewise_count(const ControlCurves& curves, Index level, const Pace& pace) {
   Count total = 0;
   CurvePlace place;
-  for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c)
-    total += refined_count(curves, c, place, level);
-  return total;
-}
-
-// --- Refinement -------------------------------------------------------------------------------------------
-
-namespace {
-
-// Parameters at which the points of a refined curve are taken to stand.
-std::vector<double> parameters_of(const Spline& spline, CurveBasis basis) {
-  std::vector<double> ts;
-  if (basis == CurveBasis::nurbs) {
-    for (Count i = 0; i < spline.point_count(); ++i) {
-      double mean = 0;
-      for (Index k = 1; k <= spline.degree; ++k) mean += spline.knots[i + k] / spline.degree;
-      ts.push_back(std::clamp(mean, spline.begin(), spline.end()));
-    }
-    return ts;
-  }
-  const std::vector<BezierPiece> pieces = bezier_pieces(spline);
-  for (const BezierPiece& piece : pieces)
-    for (Index k = 0; k < 3; ++k) ts.push_back(piece.begin + (piece.end - piece.begin) * k / 3);
-  ts.push_back(pieces.back().end);
-  return ts;
-}
-
-Result<void> add_limits(const Spline& refined, const CurveOptions& options, const Budget& budget,
-                        RefinedPiecewise& all) {
-  if (!options.limit && !options.tangents) return {};
-  const Index dimension = refined.dimension();
-  std::vector<double> rows(2 * std::size_t{dimension});
-  BudgetPoller poller(budget);
-  for (const double t : parameters_of(refined, all.basis)) {
-    if (auto stop = poller.spend(64)) return *stop;
-    if (auto done = derivatives(refined, t, 1, rows); !done) return done;
-    if (options.limit)
-      all.limit_points.insert(all.limit_points.end(), rows.begin(), rows.begin() + dimension);
-    if (options.tangents) all.tangents.insert(all.tangents.end(), rows.begin() + dimension, rows.end());
-  }
-  return {};
-}
-
-}  // namespace
-
-Result<RefinedPiecewise> refine_piecewise(const ControlCurves& curves, const CurveOptions& options,
-                                          const Budget& budget) {
-  RefinedPiecewise all;
-  if (curves.basis == CurveBasis::nurbs) all.basis = CurveBasis::nurbs;
-  CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
-    if (auto stop = budget.poll()) return *stop;
-    const auto spline = spline_of(curves, c, place);
-    if (!spline) return spline.error();
-    const auto refined = refine_spans(*spline, options.level, budget);
-    if (!refined) return refined.error();
-    const Count before = all.points.size();
-    if (all.basis == CurveBasis::nurbs) {
-      const std::vector<double> points = projected(*refined), own = weights(*refined);
-      all.points.insert(all.points.end(), points.begin(), points.end());
-      all.weights.insert(all.weights.end(), own.begin(), own.end());
-      all.knots.insert(all.knots.end(), refined->knots.begin(), refined->knots.end());
-      all.orders.push_back(refined->degree + 1);
-    } else {
-      const auto points = bezier_points(*refined, budget);
-      if (!points) return points.error();
-      all.points.insert(all.points.end(), points->begin(), points->end());
-    }
-    all.vertex_counts.push_back(static_cast<Index>((all.points.size() - before) / curves.width));
-    if (auto done = add_limits(*refined, options, budget, all); !done) return std::move(done).error();
+    pace.spend(1);
+    total += refined_count(curves, c, place, level, pace);
   }
-  return all;
+  return total;
 }
 
 }  // namespace subdivd

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/curves/control_curve.h"
 #include "core/curves/subdivision.h"
@@ -20,11 +21,13 @@ struct CurvePlace {
 };
 // The place behind curve number `curve`, which is at `place`: that of the next.
 CurvePlace next_place(const ControlCurves& curves, Count curve, CurvePlace place);
-std::vector<CurvePlace> curve_places(const ControlCurves& curves);  // of every curve
+// Of every curve. With a pace, throws Stopped.
+std::vector<CurvePlace> curve_places(const ControlCurves& curves, const Pace& pace = {});
 
 // Curve number `curve`, which is at `place`; `curves` must have passed check(). unsupported: a four-point
 // curve, or corner cutting at another ratio than 1/4, has no polynomial pieces.
-Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place);
+Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place,
+                         const Budget& budget = {});
 
 // The part of check() for bases that are given by pieces or on knots. Places as the JSON names them: points
 // and curveVertexCounts, order, knots, ranges, pointWeights with the index in the whole array.
@@ -32,7 +35,8 @@ Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget =
 
 // Points of all curves after `level` steps: of a chain of s segments 3 s 2^l + 1, on knots n + s (2^l - 1) of
 // s spans.
-Count refined_piecewise_count(const ControlCurves& curves, Index level);
+// With a pace, throws Stopped.
+Count refined_piecewise_count(const ControlCurves& curves, Index level, const Pace& pace = {});
 
 // As refine() does (subdivision.h), in doubles. Pieces of every basis come back as Bezier curves, closed ones
 // open and ending where they begin. Limits stand at the mean of the knots that a control point feels

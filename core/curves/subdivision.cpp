@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/all_finite.h"
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/block_refiner.h"
 #include "core/curves/limit_pass.h"
@@ -18,10 +19,23 @@ namespace {
 
 // Whether all of them fit into Real.
 template <class Real>
-bool fits(std::span<const double> control) {
+bool fits(std::span<const double> control, const Pace& pace) {
   if constexpr (sizeof(Real) == sizeof(double)) return true;
   const double largest = static_cast<double>(std::numeric_limits<Real>::max());
-  return all_below(control, std::nextafter(largest, HUGE_VAL));
+  bool all = true;
+  pace.in_blocks(control.size(), [&](Count begin, Count end) {
+    all = all && all_below(control.subspan(begin, end - begin), std::nextafter(largest, HUGE_VAL));
+  });
+  return all;
+}
+
+template <class Real>
+bool finite(std::span<const Real> values, const Pace& pace) {
+  bool all = true;
+  pace.in_blocks(values.size(), [&](Count begin, Count end) {
+    all = all && all_finite(values.subspan(begin, end - begin));
+  });
+  return all;
 }
 
 // The three arrays of one refined curve within the answer; null where they are not asked for.
@@ -32,7 +46,7 @@ struct Target {
 
 template <class Real>
 Result<void> refine_one(const ControlCurves& curves, std::span<const double> control, const LimitMasks& masks,
-                        Index level, const Budget& budget, Target<Real> to) {
+                        Index level, const Budget& budget, const Pace& pace, Target<Real> to) {
   const Index width = curves.width;
   const Curve<Real> curve = curve_of<Real>(curves, control);
   const Count outer = curve.has_outer_ends() ? width : 0;
@@ -48,17 +62,17 @@ Result<void> refine_one(const ControlCurves& curves, std::span<const double> con
   }
   if (to.limits != nullptr) {
     if (auto done = pass.limits(budget, to.limits + outer); !done) return done;
-    if (!all_finite(std::span<const Real>(to.limits, last + outer))) return does_not_fit();
+    if (!finite(std::span<const Real>(to.limits, last + outer), pace)) return does_not_fit();
   }
   if (to.tangents != nullptr) {
     if (auto done = pass.tangents(budget, to.tangents + outer); !done) return done;
     if (outer != 0) pass.end_tangent(false, to.tangents), pass.end_tangent(true, to.tangents + last);
-    if (!all_finite(std::span<const Real>(to.tangents, last + outer))) return does_not_fit();
+    if (!finite(std::span<const Real>(to.tangents, last + outer), pace)) return does_not_fit();
   }
   return {};
 }
 
-Result<Count> total_points(const ControlCurves& curves, Index level) {
+Result<Count> total_points(const ControlCurves& curves, Index level, const Pace& pace) {
   if (level > kMaxCurveLevel)
     return Error{ErrorCode::out_of_range,
                  "level " + std::to_string(level) + " is over the maximum of " +
@@ -67,7 +81,7 @@ Result<Count> total_points(const ControlCurves& curves, Index level) {
                  level,
                  kMaxCurveLevel};
   // No overflow: at most 2^32 points, 2^24 times as many each.
-  const Count total = total_point_count(curves, level);
+  const Count total = total_point_count(curves, level, pace);
   if (total <= kMaxIndexCount) return total;
   return Error{
       ErrorCode::too_large,
@@ -79,11 +93,11 @@ Result<Count> total_points(const ControlCurves& curves, Index level) {
 
 }  // namespace
 
-Count total_point_count(const ControlCurves& curves, Index level) {
-  if (!is_subdivided(curves.basis)) return refined_piecewise_count(curves, level);
+Count total_point_count(const ControlCurves& curves, Index level, const Pace& pace) {
+  if (!is_subdivided(curves.basis)) return refined_piecewise_count(curves, level, pace);
   Count total = 0;
-  for (Count c = 0; c < curves.curve_count(); ++c)
-    total += refined_point_count(curves, curves.points_of_curve(c), level);
+  pace.for_each(curves.curve_count(),
+                [&](Count c) { total += refined_point_count(curves, curves.points_of_curve(c), level); });
   return total;
 }
 
@@ -120,8 +134,9 @@ double point_parameter(const ControlCurves& curves, Count points, Index level, C
 }
 
 template <class Real>
-Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& options) {
-  const Result<Count> points = total_points(curves, options.level);
+Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& options, const Budget& budget) {
+  const Result<Count> points =
+      stoppable(budget, [&](const Pace& pace) { return total_points(curves, options.level, pace); });
   if (!points) return points;
   const Count arrays = 1 + (options.limit ? 1 : 0) + (options.tangents ? 1 : 0);
   // At most 2^32 points of 2^12 scalars in three arrays: 2^49 bytes, no overflow.
@@ -134,19 +149,19 @@ Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& opt
 namespace {
 
 template <class Real, class To>
-bool convert(const std::vector<double>& from, To& to) {
-  to.resize(from.size());
+bool convert(const std::vector<double>& from, To& to, const Pace& pace) {
+  to.reserve(from.size());
   bool fine = true;
-  for (Count k = 0; k < from.size(); ++k) {
-    to[k] = static_cast<Real>(from[k]);
+  pace.for_each(from.size(), [&](Count k) {
+    to.push_back(static_cast<Real>(from[k]));
     fine &= std::isfinite(to[k]);
-  }
+  });
   return fine;
 }
 
 template <class Real>
 Result<RefinedCurves<Real>> refine_by_pieces(const ControlCurves& curves, const CurveOptions& options,
-                                             const Budget& budget) {
+                                             const Budget& budget, const Pace& pace) {
   auto pieces = refine_piecewise(curves, options, budget);
   if (!pieces) return std::move(pieces).error();
   RefinedCurves<Real> refined;
@@ -159,25 +174,18 @@ Result<RefinedCurves<Real>> refine_by_pieces(const ControlCurves& curves, const 
   refined.orders = std::move(pieces->orders);
   refined.knots = std::move(pieces->knots);
   refined.weights = std::move(pieces->weights);
-  if (!convert<Real>(pieces->points, refined.points) ||
-      !convert<Real>(pieces->limit_points, refined.limit_points) ||
-      !convert<Real>(pieces->tangents, refined.tangents))
+  if (!convert<Real>(pieces->points, refined.points, pace) ||
+      !convert<Real>(pieces->limit_points, refined.limit_points, pace) ||
+      !convert<Real>(pieces->tangents, refined.tangents, pace))
     return does_not_fit();
   return refined;
 }
 
-}  // namespace
-
 template <class Real>
-Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptions& options,
-                                   const Budget& budget) {
-  const Result<Count> bytes = predict_bytes<Real>(curves, options);
-  if (!bytes) return bytes.error();
-  if (auto allowed = budget.check_bytes(*bytes); !allowed) return allowed.error();
+Result<RefinedCurves<Real>> refine_by_steps(const ControlCurves& curves, const CurveOptions& options,
+                                            const Budget& budget, const Pace& pace) {
   const std::span<const double> control(curves.points);
-  if (auto stop = budget.poll()) return *stop;  // a dead caller costs nothing
-  if (!is_subdivided(curves.basis)) return refine_by_pieces<Real>(curves, options, budget);
-  if (!fits<Real>(control)) return does_not_fit();
+  if (!fits<Real>(control, pace)) return does_not_fit();
 
   RefinedCurves<Real> refined;
   refined.name = curves.name;
@@ -188,7 +196,7 @@ Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptio
   refined.degree = curves.degree;
   refined.tension = curves.tension;
   refined.ratio = curves.ratio;
-  const Count scalars = *total_points(curves, options.level) * curves.width;
+  const Count scalars = total_point_count(curves, options.level, pace) * curves.width;
   refined.points.resize(scalars);
   if (options.limit) refined.limit_points.resize(scalars);
   if (options.tangents) refined.tangents.resize(scalars);
@@ -202,7 +210,7 @@ Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptio
                           options.limit ? refined.limit_points.data() + out : nullptr,
                           options.tangents ? refined.tangents.data() + out : nullptr};
     const auto done =
-        refine_one<Real>(curves, control.subspan(begin, size), masks, options.level, budget, to);
+        refine_one<Real>(curves, control.subspan(begin, size), masks, options.level, budget, pace, to);
     if (!done) return done.error();
     const Count count = refined_point_count(curves, points, options.level);
     refined.vertex_counts.push_back(static_cast<Index>(count));
@@ -212,8 +220,23 @@ Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptio
   return refined;
 }
 
-template Result<Count> predict_bytes<float>(const ControlCurves&, const CurveOptions&);
-template Result<Count> predict_bytes<double>(const ControlCurves&, const CurveOptions&);
+}  // namespace
+
+template <class Real>
+Result<RefinedCurves<Real>> refine(const ControlCurves& curves, const CurveOptions& options,
+                                   const Budget& budget) {
+  const Result<Count> bytes = predict_bytes<Real>(curves, options, budget);
+  if (!bytes) return bytes.error();
+  if (auto allowed = budget.check_bytes(*bytes); !allowed) return allowed.error();
+  return stoppable(budget, [&](const Pace& pace) {
+    pace.spend(Pace::kBlock);  // a dead caller costs nothing
+    return is_subdivided(curves.basis) ? refine_by_steps<Real>(curves, options, budget, pace)
+                                       : refine_by_pieces<Real>(curves, options, budget, pace);
+  });
+}
+
+template Result<Count> predict_bytes<float>(const ControlCurves&, const CurveOptions&, const Budget&);
+template Result<Count> predict_bytes<double>(const ControlCurves&, const CurveOptions&, const Budget&);
 template Result<RefinedCurves<float>> refine<float>(const ControlCurves&, const CurveOptions&, const Budget&);
 template Result<RefinedCurves<double>> refine<double>(const ControlCurves&, const CurveOptions&,
                                                       const Budget&);

@@ -21,6 +21,7 @@
 
 #include "core/base/budget.h"
 #include "core/base/buffer.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/curves/control_curve.h"
 
@@ -58,7 +59,7 @@ struct RefinedCurves {
 };
 
 // Points of all curves together after `level` steps, whatever their basis.
-Count total_point_count(const ControlCurves& curves, Index level);
+Count total_point_count(const ControlCurves& curves, Index level, const Pace& pace = {});
 
 // Points of one curve of `points` control points after `level` steps; of `curves`, basis, degree and wrap
 // count:
@@ -74,7 +75,8 @@ double point_parameter(const ControlCurves& curves, Count points, Index level, C
 // Bytes of all arrays of RefinedCurves<Real>; refuses levels over the maximum (out_of_range) and counts
 // beyond 32 bits (too_large).
 template <class Real>
-Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& options);
+Result<Count> predict_bytes(const ControlCurves& curves, const CurveOptions& options,
+                            const Budget& budget = {});
 
 // `curves` must have passed check(). Fails for sizes (as predict_bytes, and too_large against
 // budget.max_bytes), when the budget says stop, and with out_of_range when a number does not fit into

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/splines/bounds.h"
 #include "core/splines/growing_memory.h"
@@ -17,13 +19,59 @@ namespace {
 // --- A curve in measured pieces ---------------------------------------------------------------------------
 
 struct Measured {
-  SpeedPiece piece;
+  double begin, end;  // as of a SpeedPiece, whose numbers stand in a store
+  double width;
+  Index level;
+  double* numbers;
   Interval length;
   // Of a heap whose front gains most by halving; the parameter makes the order unique.
   bool operator<(const Measured& other) const {
     const double mine = length.gain(), others = other.length.gain();
-    return mine != others ? mine < others : piece.derivative.begin > other.piece.derivative.begin;
+    return mine != others ? mine < others : begin > other.begin;
   }
+};
+
+// The numbers of speed pieces, in large blocks: millions of small arrays would take long to be given back.
+class NumberStore {
+ public:
+  explicit NumberStore(const Spline& spline)
+      : rows_(Count{spline.rational ? 2 * spline.degree - 1 : spline.degree} *
+              (spline.dimension() + Count{1})),
+        weights_(spline.rational ? spline.degree + Count{1} : 0) {}
+
+  // For `pieces` more at once.
+  void make_room(Count pieces) {
+    blocks_.push_back(std::make_unique_for_overwrite<double[]>(pieces * (rows_ + weights_)));
+    next_ = blocks_.back().get();
+    room_ = pieces;
+  }
+  // In the place of what is not needed any more, or in a new one.
+  Measured put(const SpeedPiece& piece, double* place = nullptr) {
+    if (place == nullptr) {
+      if (room_ == 0) make_room(std::clamp<Count>(kBlock / (rows_ + weights_), 1, kMostInBlock));
+      place = next_;
+      next_ += rows_ + weights_;
+      --room_;
+    }
+    std::copy_n(piece.derivative.points.data(), rows_, place);
+    std::copy_n(piece.weight.points.data(), weights_, place + rows_);
+    return {piece.derivative.begin, piece.derivative.end, piece.width, piece.level, place, {}};
+  }
+  void get(const Measured& one, SpeedPiece& piece) const {
+    piece.derivative.begin = piece.weight.begin = one.begin;
+    piece.derivative.end = piece.weight.end = one.end;
+    piece.derivative.points.assign(one.numbers, one.numbers + rows_);
+    piece.weight.points.assign(one.numbers + rows_, one.numbers + rows_ + weights_);
+    piece.width = one.width;
+    piece.level = one.level;
+  }
+
+ private:
+  static constexpr Count kBlock = 4096, kMostInBlock = 64;
+  Count rows_, weights_;
+  std::vector<std::unique_ptr<double[]>> blocks_;
+  double* next_ = nullptr;
+  Count room_ = 0;
 };
 
 // Of N, of dimension + 1 scalars, and of the weights: two blocks.
@@ -32,37 +80,42 @@ Count bytes_elsewhere(const Spline& spline) {
   return 2 * kBytesPerBlock + (rows * (spline.dimension() + Count{1}) + p + 1) * sizeof(double);
 }
 
+constexpr Count kStepsOfPiece = 200;  // at least
+
 struct Survey {
-  std::vector<Measured> pieces;  // a heap, until put in order
-  int exponent = 0;              // lengths are times 2^exponent
+  NumberStore numbers;
+  std::vector<Measured> pieces{};  // a heap, until put in order
+  int exponent = 0;                // lengths are times 2^exponent
   double length = 0, bound = 0;
 };
 
-void add_up(Survey& survey) {
+void add_up(Survey& survey, const Pace& pace) {
   survey.length = survey.bound = 0;
-  for (const Measured& one : survey.pieces) {
-    survey.length += one.length.middle();
-    survey.bound += one.length.half() + one.length.rounding;
-  }
+  pace.for_each(survey.pieces.size(), [&](Count i) {
+    const Interval& length = survey.pieces[i].length;
+    survey.length += length.middle();
+    survey.bound += length.half() + length.rounding;
+  });
   survey.bound += static_cast<double>(survey.pieces.size()) * kRoundoff * (survey.length + survey.bound);
 }
 
 // The spans between a and b as they are, each in coordinates of its own, so that rounding is relative to it.
 Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, double b,
-                            const Budget& budget) {
-  Survey survey;
+                            const Budget& budget, const Pace& pace) {
+  Survey survey{.numbers = NumberStore(spline)};
   std::vector<int> exponents;
   const Count first = find_span(spline, a), last = find_span(spline, b);
   const Count each = sizeof(Measured) + sizeof(int) + bytes_elsewhere(spline);
   if (auto taken = budget.take_memory((last - first + 1) * each); !taken) return taken.error();
   survey.pieces.reserve(last - first + 1);
+  survey.numbers.make_room(last - first + 1);
   exponents.reserve(last - first + 1);
   for (Count span = first; span <= last; ++span) {
+    pace.spend(1);
     const double begin = spline.knots[span], end = spline.knots[span + 1];
     const double from = std::max(a, begin), to = std::min(b, end);
     if (!(from < to)) continue;
-    if (survey.pieces.size() % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(kStepsOfPiece);
     const Result<LocalSpline> local = localized(window(spline, span));
     if (!local) return local.error();
     SpeedPiece piece = ruler.piece_of(*local);
@@ -72,17 +125,18 @@ Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, 
       piece.derivative.end = to;
       piece.width = (to - from) / (end - begin);
     }
-    survey.pieces.push_back({std::move(piece), {}});
+    survey.pieces.push_back(survey.numbers.put(piece));
     exponents.push_back(local->exponent);
   }
   if (exponents.empty()) return survey;
   survey.exponent = *std::ranges::max_element(exponents);
+  SpeedPiece piece;
   for (Count i = 0; i < exponents.size(); ++i) {
-    if (i % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(kStepsOfPiece);
     Measured& one = survey.pieces[i];
-    one.piece.width = std::ldexp(one.piece.width, exponents[i] - survey.exponent);
-    one.length = ruler.measure(one.piece);
+    one.width = std::ldexp(one.width, exponents[i] - survey.exponent);
+    survey.numbers.get(one, piece);
+    one.length = ruler.measure(piece);
   }
   return survey;
 }
@@ -104,48 +158,57 @@ Error not_reached(const Survey& survey, const LengthOptions& options, bool by_ro
 }
 
 Result<Survey> survey_of(const Spline& spline, const Ruler& ruler, double a, double b,
-                         const LengthOptions& options, const Budget& budget) {
+                         const LengthOptions& options, const Budget& budget, const Pace& pace) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     return refusal(ErrorCode::out_of_range, "the tolerance must be a finite number above 0", {"tolerance"});
-  Result<Survey> surveyed = first_survey(spline, ruler, a, b, budget);
+  Result<Survey> surveyed = first_survey(spline, ruler, a, b, budget, pace);
   if (!surveyed) return surveyed;
   Survey& survey = *surveyed;
-  std::make_heap(survey.pieces.begin(), survey.pieces.end());
-  add_up(survey);
+  std::make_heap(survey.pieces.begin(), survey.pieces.end(), [&](const Measured& one, const Measured& other) {
+    pace.spend(1);
+    return one < other;
+  });
+  add_up(survey, pace);
   const Count at_first = survey.pieces.size();
   GrowingMemory memory(budget, sizeof(Measured), bytes_elsewhere(spline));
   bool moved = false;             // growing once moves the first ones, too
   double running = survey.bound;  // kept up to date piece by piece; add_up has the last word
+  Count next_sum = 0;             // rarely: not more often than there are pieces to be added up
+  SpeedPiece piece;
   for (Count steps = 1;; ++steps) {
-    if (running <= options.tolerance * survey.length || steps % 4096 == 0) {
-      add_up(survey);
+    const bool due = steps % 4096 == 0 && steps >= next_sum;
+    if (due) next_sum = steps + survey.pieces.size();
+    if (running <= options.tolerance * survey.length || due) {
+      add_up(survey, pace);
       running = survey.bound;
       if (survey.bound <= options.tolerance * survey.length) return surveyed;
     }
     // A piece that halving no longer helps has an interval of the size of its rounding.
-    const Measured& widest = survey.pieces.front();
-    const bool by_rounding = !widest.length.uneven && widest.length.half() <= widest.length.rounding;
+    const Measured old = survey.pieces.front();
+    const bool by_rounding = !old.length.uneven && old.length.half() <= old.length.rounding;
     if (by_rounding || survey.pieces.size() >= options.max_pieces) {
-      add_up(survey);
+      add_up(survey, pace);
       if (survey.bound <= options.tolerance * survey.length) return surveyed;
       return not_reached(survey, options, by_rounding);
     }
-    if (steps % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(2 * kStepsOfPiece);
     if (auto taken = memory.hold(survey.pieces.size() + 1 - std::min(at_first, survey.pieces.size())); !taken)
       return taken.error();
     if (!std::exchange(moved, true))
       if (auto taken = budget.take_memory(2 * at_first * sizeof(Measured)); !taken) return taken.error();
     std::pop_heap(survey.pieces.begin(), survey.pieces.end());
-    const Measured old = std::move(survey.pieces.back());
     survey.pieces.pop_back();
     running -= old.length.half() + old.length.rounding;
     survey.length -= old.length.middle();
-    for (SpeedPiece& half : ruler.halves(old.piece)) {
-      const Interval length = ruler.measure(half);
-      running += length.half() + length.rounding;
-      survey.length += length.middle();
-      survey.pieces.push_back({std::move(half), length});
+    survey.numbers.get(old, piece);
+    double* place = old.numbers;
+    for (const SpeedPiece& half : ruler.halves(piece)) {
+      Measured one = survey.numbers.put(half, std::exchange(place, nullptr));
+      one.length = ruler.measure(half);
+      running += one.length.half() + one.length.rounding;
+      survey.length += one.length.middle();
+      pace.make_room(survey.pieces, 1);
+      survey.pieces.push_back(one);
       std::push_heap(survey.pieces.begin(), survey.pieces.end());
     }
   }
@@ -158,25 +221,29 @@ struct Milestones {
   Survey survey;
   std::vector<double> ends;
 
-  explicit Milestones(Survey made) : survey(std::move(made)) {
-    std::ranges::sort(survey.pieces, {}, [](const Measured& one) { return one.piece.derivative.begin; });
+  Milestones(Survey made, const Pace& pace) : survey(std::move(made)) {
+    pace.sort(survey.pieces.begin(), survey.pieces.end(),
+              [](const Measured& one, const Measured& other) { return one.begin < other.begin; });
     double sum = 0;
-    for (const Measured& one : survey.pieces) ends.push_back(sum += one.length.middle());
+    ends.reserve(survey.pieces.size());
+    pace.for_each(survey.pieces.size(),
+                  [&](Count i) { ends.push_back(sum += survey.pieces[i].length.middle()); });
   }
   double total() const { return ends.empty() ? 0 : ends.back(); }
 };
 
-// Newton's method for the length from the piece's begin to u, with bisection where it would leave what
-// brackets the answer. The part is measured as its piece has been: its chord and polygon are closer together
-// than those of the whole; that its Gauss interval is no wider either is tested, not proved.
-double share_at_length(const Ruler& ruler, const Measured& one, double length, double accuracy) {
-  double low = 0, high = 1, u = std::clamp(length / one.length.middle(), 0.0, 1.0);
+// Newton's method for the length from the begin of a piece, `whole` long, to u, with bisection where it would
+// leave what brackets the answer. The part is measured as its piece has been: its chord and polygon are
+// closer together than those of the whole; that its Gauss interval is no wider either is tested, not proved.
+double share_at_length(const Ruler& ruler, const SpeedPiece& piece, double whole, double length,
+                       double accuracy) {
+  double low = 0, high = 1, u = std::clamp(length / whole, 0.0, 1.0);
   for (int step = 0; step < 100 && low < u && u < high; ++step) {
-    const SpeedPiece part = ruler.part(one.piece, 0, u);
+    const SpeedPiece part = ruler.part(piece, 0, u);
     const double excess = ruler.measure(part).middle() - length;
     if (std::abs(excess) <= accuracy) return u;
     (excess > 0 ? high : low) = u;
-    const double slope = one.piece.width * ruler.speed_at_end(part);
+    const double slope = piece.width * ruler.speed_at_end(part);
     const double next = u - excess / slope;
     u = next > low && next < high ? next : low / 2 + high / 2;  // also where the slope is 0
   }
@@ -188,12 +255,14 @@ double parameter_at(const Ruler& ruler, const Milestones& milestones, double len
   const Count i =
       std::min<Count>(static_cast<Count>(found - milestones.ends.begin()), milestones.ends.size() - 1);
   const Measured& one = milestones.survey.pieces[i];
-  const double begin = one.piece.derivative.begin, end = one.piece.derivative.end;
   const double rest = length - (i == 0 ? 0 : milestones.ends[i - 1]);
-  if (!(rest > 0)) return begin;
-  if (length >= milestones.ends[i]) return end;
-  const double u = share_at_length(ruler, one, rest, 4 * kRoundoff * milestones.total());
-  return std::clamp(begin + u * (end - begin), begin, end);
+  if (!(rest > 0)) return one.begin;
+  if (length >= milestones.ends[i]) return one.end;
+  SpeedPiece piece;
+  milestones.survey.numbers.get(one, piece);
+  const double u =
+      share_at_length(ruler, piece, one.length.middle(), rest, 4 * kRoundoff * milestones.total());
+  return std::clamp(one.begin + u * (one.end - one.begin), one.begin, one.end);
 }
 
 }  // namespace
@@ -207,13 +276,15 @@ Result<ArcLength> arc_length(const Spline& spline, double a, double b, const Len
     return refusal(
         ErrorCode::out_of_range,
         "the length must be asked for up to the same or a later parameter within the curve's domain", {"to"});
-  const Ruler ruler(spline);
-  const Result<Survey> survey = survey_of(spline, ruler, a, b, options, budget);
-  if (!survey) return survey.error();
-  const double length = std::ldexp(survey->length, survey->exponent);
-  const double bound = std::ldexp(survey->bound, survey->exponent);
-  if (!std::isfinite(length) || !std::isfinite(bound)) return does_not_fit();
-  return ArcLength{length, bound, survey->pieces.size()};
+  return stoppable(budget, [&](const Pace& pace) -> Result<ArcLength> {
+    const Ruler ruler(spline, pace);
+    const Result<Survey> survey = survey_of(spline, ruler, a, b, options, budget, pace);
+    if (!survey) return survey.error();
+    const double length = std::ldexp(survey->length, survey->exponent);
+    const double bound = std::ldexp(survey->bound, survey->exponent);
+    if (!std::isfinite(length) || !std::isfinite(bound)) return does_not_fit();
+    return ArcLength{length, bound, survey->pieces.size()};
+  });
 }
 
 Result<ArcLength> arc_length(const Spline& spline, const LengthOptions& options, const Budget& budget) {
@@ -224,19 +295,21 @@ Result<double> parameter_at_length(const Spline& spline, double length, const Le
                                    const Budget& budget) {
   if (!std::isfinite(length))
     return refusal(ErrorCode::not_finite, "the length is not a finite number", {"length"});
-  const Ruler ruler(spline);
-  Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget);
-  if (!survey) return survey.error();
-  const double bound = survey->bound;
-  const Milestones milestones(*std::move(survey));
-  const double wanted = std::ldexp(length, -milestones.survey.exponent);
-  if (!(wanted >= 0 && wanted <= milestones.total() + bound))
-    return refusal(ErrorCode::out_of_range,
-                   "the length must be 0 to that of the curve, " +
-                       brief(std::ldexp(milestones.total(), milestones.survey.exponent)),
-                   {"length"});
-  if (wanted >= milestones.total() && wanted > 0) return spline.end();
-  return parameter_at(ruler, milestones, wanted);
+  return stoppable(budget, [&](const Pace& pace) -> Result<double> {
+    const Ruler ruler(spline, pace);
+    Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget, pace);
+    if (!survey) return survey.error();
+    const double bound = survey->bound;
+    const Milestones milestones(*std::move(survey), pace);
+    const double wanted = std::ldexp(length, -milestones.survey.exponent);
+    if (!(wanted >= 0 && wanted <= milestones.total() + bound))
+      return refusal(ErrorCode::out_of_range,
+                     "the length must be 0 to that of the curve, " +
+                         brief(std::ldexp(milestones.total(), milestones.survey.exponent)),
+                     {"length"});
+    if (wanted >= milestones.total() && wanted > 0) return spline.end();
+    return parameter_at(ruler, milestones, wanted);
+  });
 }
 
 Result<std::vector<double>> equal_parameters(const Spline& spline, Count count, const LengthOptions& options,
@@ -248,29 +321,31 @@ Result<std::vector<double>> equal_parameters(const Spline& spline, Count count, 
                        " parameters; " + std::to_string(count) + " were asked for",
                    {"count"});
   if (auto allowed = budget.check_bytes(count * sizeof(double)); !allowed) return allowed.error();
-  const Ruler ruler(spline);
-  Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget);
-  if (!survey) return survey.error();
-  const Milestones milestones(*std::move(survey));
-  const double total = milestones.total(), begin = spline.begin(), end = spline.end();
-  const double steps = static_cast<double>(spline.periodic ? count : count - 1);
-  std::vector<double> parameters;
-  parameters.reserve(count);
-  for (Count i = 0; i < count; ++i) {
-    if (i % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    const double share = static_cast<double>(i) / steps;
-    if (i == 0)
-      parameters.push_back(begin);
-    else if (!spline.periodic && i + 1 == count)
-      parameters.push_back(end);
-    else
-      parameters.push_back(total > 0 ? parameter_at(ruler, milestones, share * total)
-                                     : begin + share * (end - begin));
-  }
-  // Neighbours closer than the accuracy may have come out in the wrong order.
-  for (Count i = 1; i < count; ++i) parameters[i] = std::max(parameters[i], parameters[i - 1]);
-  return parameters;
+  return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<double>> {
+    const Ruler ruler(spline, pace);
+    Result<Survey> survey = survey_of(spline, ruler, spline.begin(), spline.end(), options, budget, pace);
+    if (!survey) return survey.error();
+    const Milestones milestones(*std::move(survey), pace);
+    const double total = milestones.total(), begin = spline.begin(), end = spline.end();
+    const double steps = static_cast<double>(spline.periodic ? count : count - 1);
+    std::vector<double> parameters;
+    parameters.reserve(count);
+    for (Count i = 0; i < count; ++i) {
+      pace.spend(kStepsOfPiece);
+      const double share = static_cast<double>(i) / steps;
+      if (i == 0)
+        parameters.push_back(begin);
+      else if (!spline.periodic && i + 1 == count)
+        parameters.push_back(end);
+      else
+        parameters.push_back(total > 0 ? parameter_at(ruler, milestones, share * total)
+                                       : begin + share * (end - begin));
+    }
+    // Neighbours closer than the accuracy may have come out in the wrong order.
+    pace.for_each(count - 1,
+                  [&](Count i) { parameters[i + 1] = std::max(parameters[i + 1], parameters[i]); });
+    return parameters;
+  });
 }
 
 }  // namespace subdivd

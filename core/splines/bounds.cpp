@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "core/base/all_finite.h"
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/splines/growing_memory.h"
-#include "core/splines/measurement.h"
+#include "core/splines/piece_store.h"
 
 namespace subdivd {
 namespace {
@@ -17,29 +20,43 @@ constexpr Index kMaxDepth = 640;
 
 int exponent_of(double value) { return value > 0 ? std::ilogb(value) + 1 : 0; }
 
-Box box_of(std::span<const double> points, Index dimension) {
-  Box box{{points.begin(), points.begin() + dimension}, {points.begin(), points.begin() + dimension}};
-  for (Count i = 0; i < points.size(); ++i) {
-    const Count k = i % dimension;
-    box.low[k] = std::min(box.low[k], points[i]);
-    box.high[k] = std::max(box.high[k], points[i]);
+// Around the control points. Nothing where one of them outgrows a double.
+std::optional<Box> control_box(const Spline& spline, const Pace& pace) {
+  const Index dimension = spline.dimension();
+  std::vector<double> point(dimension);
+  project(spline.point(0), spline.rational, point);
+  Box box{point, point};
+  bool finite = true;
+  for (Count i = 0; i < spline.point_count(); ++i) {
+    pace.spend(dimension);
+    project(spline.point(i), spline.rational, point);
+    finite = finite && all_finite(std::span<const double>(point));
+    for (Index k = 0; k < dimension; ++k) {
+      box.low[k] = std::min(box.low[k], point[k]);
+      box.high[k] = std::max(box.high[k], point[k]);
+    }
   }
+  if (!finite) return {};
   return box;
 }
 
 // Brings the largest weight into [1/2, 1); the coordinates, which are times the weight, follow.
-Result<int> weight_exponent(const Spline& spline) {
+Result<int> weight_exponent(const Spline& spline, const Pace& pace) {
   if (!spline.rational) return 0;
-  const std::vector<double> all = weights(spline);
-  const int exponent = exponent_of(*std::ranges::max_element(all));
-  for (Count i = 0; i < all.size(); ++i)
-    if (exponent_of(all[i]) - exponent < kLeastWeightExponent)
+  const auto weight = [&](Count i) { return spline.points[i * spline.width + spline.width - 1]; };
+  double largest = weight(0);
+  pace.for_each(spline.point_count(), [&](Count i) { largest = std::max(largest, weight(i)); });
+  const int exponent = exponent_of(largest);
+  for (Count i = 0; i < spline.point_count(); ++i) {
+    pace.spend(1);
+    if (exponent_of(weight(i)) - exponent < kLeastWeightExponent)
       return Error{ErrorCode::out_of_range,
                    "weight " + std::to_string(i) + " is less than 2^" + std::to_string(kLeastWeightExponent) +
                        " of the largest; weights that far apart cannot be measured with",
                    {"pointWeights", std::uint64_t{i}},
                    0,
                    0};
+  }
   return exponent;
 }
 
@@ -48,8 +65,8 @@ Result<int> weight_exponent(const Spline& spline) {
 // A piece of one coordinate, and what it does not exceed.
 struct Slope {
   double top;
-  Index depth;
-  BezierPiece piece;
+  Count number;  // of the curve's pieces, or in the store
+  Index depth;   // 0: a piece of the curve
   bool operator<(const Slope& other) const { return top < other.top; }
 };
 
@@ -68,46 +85,58 @@ double attained_by(const BezierPiece& piece, Index width) {
   return std::max(piece.points[0] / piece.points[1], piece.points[last] / piece.points[last + 1]);
 }
 
-// Coordinate k alone, times `sign`.
-BezierPiece coordinate_of(const BezierPiece& piece, const Spline& spline, Index k, double sign) {
-  BezierPiece one{piece.begin, piece.end, {}};
-  for (Count i = 0; i < piece.points.size(); i += spline.width) {
-    one.points.push_back(sign * piece.points[i + k]);
-    if (spline.rational) one.points.push_back(piece.points[i + spline.width - 1]);
+// Coordinate k of piece `number` alone, times `sign`.
+void take_coordinate(const BezierPieces& pieces, Count number, const Spline& spline, Index k, double sign,
+                     BezierPiece& one) {
+  one.begin = pieces.begin(number), one.end = pieces.end(number);
+  one.points.clear();
+  const std::span<const double> points = pieces.points(number);
+  for (Count i = 0; i < points.size(); i += spline.width) {
+    one.points.push_back(sign * points[i + k]);
+    if (spline.rational) one.points.push_back(points[i + spline.width - 1]);
   }
-  return one;
 }
 
 // The largest value of sign * coordinate k, from above, to within the rounding of halving: halves the piece
 // that could reach highest until none could reach more than has been attained.
-Result<double> highest(const Spline& local, std::span<const BezierPiece> pieces, Index k, double sign,
-                       const Budget& budget, GrowingMemory& memory) {
+Result<double> highest(const Spline& local, const BezierPieces& pieces, Index k, double sign,
+                       GrowingMemory& memory, const Pace& pace) {
   const Index width = local.rational ? 2 : 1;
+  const Count steps = 4 * Count{local.degree + 1} * width;
   const double tolerance = 8 * (local.degree + 1) * kRoundoff;
   double attained = -1;
   std::vector<Slope> heap;
-  Count steps = 0;
-  const auto consider = [&](BezierPiece piece, Index depth) {
+  PieceStore store;  // of halves
+  const auto matters = [&](const BezierPiece& piece, double& top) {
     attained = std::max(attained, attained_by(piece, width));
-    const double top = top_of(piece, width);
-    if (!(top > attained)) return;
-    heap.push_back({top, depth, std::move(piece)});
+    top = top_of(piece, width);
+    return top > attained;
+  };
+  const auto put = [&](const Slope& slope) {
+    pace.make_room(heap, 1);
+    heap.push_back(slope);
     std::push_heap(heap.begin(), heap.end());
   };
-  for (const BezierPiece& piece : pieces) {
-    if (steps++ % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+  BezierPiece piece;
+  double top = 0;
+  for (Count i = 0; i < pieces.size(); ++i) {
+    pace.spend(steps);
     if (auto taken = memory.hold(heap.size() + 1); !taken) return taken.error();
-    consider(coordinate_of(piece, local, k, sign), 0);
+    take_coordinate(pieces, i, local, k, sign, piece);
+    if (matters(piece, top)) put({top, i, 0});
   }
   while (!heap.empty() && heap.front().top > attained + tolerance && heap.front().depth < kMaxDepth) {
-    if (steps++ % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    pace.spend(steps * (local.degree + 2));
     std::pop_heap(heap.begin(), heap.end());
-    const Slope slope = std::move(heap.back());
+    const Slope slope = heap.back();
     heap.pop_back();
+    if (slope.depth == 0)
+      take_coordinate(pieces, slope.number, local, k, sign, piece);
+    else
+      piece = store.take(slope.number);
     if (auto taken = memory.hold(heap.size() + 2); !taken) return taken.error();
-    for (BezierPiece& half : halves(slope.piece, width)) consider(std::move(half), slope.depth + 1);
+    for (BezierPiece& half : halves(piece, width))
+      if (matters(half, top)) put({top, store.keep(std::move(half), pace), slope.depth + 1});
   }
   return heap.empty() ? attained : std::max(attained, heap.front().top);
 }
@@ -118,18 +147,23 @@ double LocalSpline::to_global(Index k, double local) const {
   return std::clamp(centre[k] + std::ldexp(local, exponent), control.low[k], control.high[k]);
 }
 
-Result<LocalSpline> localized(const Spline& spline) {
-  const Result<int> weight_shift = weight_exponent(spline);
+namespace {
+
+Result<LocalSpline> localized(const Spline& spline, const Pace& pace) {
+  const Result<int> weight_shift = weight_exponent(spline, pace);
   if (!weight_shift) return weight_shift.error();
-  const std::vector<double> points = projected(spline);
-  if (!std::ranges::all_of(points, [](double x) { return std::isfinite(x); })) return does_not_fit();
+  auto control = control_box(spline, pace);
+  if (!control) return does_not_fit();
 
   const Index dimension = spline.dimension(), width = spline.width;
-  LocalSpline local{spline, std::vector<double>(dimension), 0, box_of(points, dimension)};
+  LocalSpline local{copy_of(spline, pace), std::vector<double>(dimension), 0, *std::move(control)};
   std::vector<double>& stored = local.spline.points;
+  const Count points = spline.point_count();
   if (spline.rational)
-    for (Count i = dimension; i < stored.size(); i += width)
-      stored[i] = std::ldexp(stored[i], -*weight_shift);
+    pace.for_each(points, [&](Count i) {
+      double& weight = stored[i * width + dimension];
+      weight = std::ldexp(weight, -*weight_shift);
+    });
 
   // First every coordinate in its own unit, a power of two above its largest value: there nothing overflows,
   // and fma takes the centre away with one rounding of the (small) difference.
@@ -141,19 +175,27 @@ Result<LocalSpline> localized(const Spline& spline) {
     unit[k] = exponent_of(std::max(std::abs(low), std::abs(high)));
     const double moved_by = std::ldexp(centre, -unit[k]);
     double radius = 0;
-    for (Count i = k; i < stored.size(); i += width) {
-      const double weight = spline.rational ? stored[i - k + dimension] : 1;
-      stored[i] = std::fma(-weight, moved_by, std::ldexp(stored[i], -unit[k] - *weight_shift));
-      radius = std::max(radius, std::abs(stored[i]) / weight);
-    }
+    pace.for_each(points, [&](Count i) {
+      double& x = stored[i * width + k];
+      const double weight = spline.rational ? stored[i * width + dimension] : 1;
+      x = std::fma(-weight, moved_by, std::ldexp(x, -unit[k] - *weight_shift));
+      radius = std::max(radius, std::abs(x) / weight);
+    });
     if (radius == 0) continue;
     const int exponent = unit[k] + exponent_of(radius);
     local.exponent = any ? std::max(local.exponent, exponent) : exponent;
     any = true;
   }
-  for (Count i = 0; i < stored.size(); ++i)
+  pace.for_each(stored.size(), [&](Count i) {
     if (const Count k = i % width; k < dimension) stored[i] = std::ldexp(stored[i], unit[k] - local.exponent);
+  });
   return local;
+}
+
+}  // namespace
+
+Result<LocalSpline> localized(const Spline& spline, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) { return localized(spline, pace); });
 }
 
 Spline window(const Spline& spline, Count span) {
@@ -184,24 +226,26 @@ std::vector<double> product_weights(Index degree) {
 }
 
 Result<Box> bounds(const Spline& spline, const Budget& budget) {
-  const Result<LocalSpline> local = localized(spline);
+  const Result<LocalSpline> local = localized(spline, budget);
   if (!local) return local.error();
   const auto pieces = bezier_pieces(local->spline, budget);
   if (!pieces) return pieces.error();
   // One heap at a time, of a coordinate alone and its weight.
-  GrowingMemory memory(budget, sizeof(Slope),
+  GrowingMemory memory(budget, sizeof(Slope) + PieceStore::kBytes,
                        kBytesPerBlock + 4 * (Count{spline.degree} + 1) * sizeof(double));
-  Box box = local->control;
-  for (Index k = 0; k < spline.dimension(); ++k) {
-    if (box.low[k] == box.high[k]) continue;
-    const Result<double> high = highest(local->spline, *pieces, k, 1, budget, memory);
-    if (!high) return high.error();
-    const Result<double> low = highest(local->spline, *pieces, k, -1, budget, memory);
-    if (!low) return low.error();
-    box.low[k] = local->to_global(k, -*low);
-    box.high[k] = local->to_global(k, *high);
-  }
-  return box;
+  return stoppable(budget, [&](const Pace& pace) -> Result<Box> {
+    Box box = local->control;
+    for (Index k = 0; k < spline.dimension(); ++k) {
+      if (box.low[k] == box.high[k]) continue;
+      const Result<double> high = highest(local->spline, *pieces, k, 1, memory, pace);
+      if (!high) return high.error();
+      const Result<double> low = highest(local->spline, *pieces, k, -1, memory, pace);
+      if (!low) return low.error();
+      box.low[k] = local->to_global(k, -*low);
+      box.high[k] = local->to_global(k, *high);
+    }
+    return box;
+  });
 }
 
 }  // namespace subdivd

@@ -41,7 +41,7 @@ struct LocalSpline {
 // curve lies.
 // Fails with out_of_range where a control point divided by its weight outgrows a double (at "points") or a
 // weight is less than 2^-500 of the largest (at "pointWeights").
-Result<LocalSpline> localized(const Spline& spline);
+Result<LocalSpline> localized(const Spline& spline, const Budget& budget = {});
 
 // The part of a spline on one span alone: degree + 1 points, the knots from span - degree to span + degree +
 // 1, domain [u_span, u_{span+1}].

@@ -169,18 +169,24 @@ Result<void> derivatives(const Spline& spline, double t, Index order, std::span<
 }
 
 // De Boor's triangle from its tip down: what weight the tip gives to every point of a row.
-void blossom_weights(std::span<const double> knots, Index degree, Count span,
-                     std::span<const double> arguments, std::span<double> weights) {
+std::pair<Index, Index> blossom_weights(std::span<const double> knots, Index degree, Count span,
+                                        std::span<const double> arguments, std::span<double> weights) {
   assert(arguments.size() == degree && weights.size() == Count{degree} + 1);
   std::ranges::fill(weights, 0.0);
   weights[degree] = 1;
-  for (Index r = degree; r >= 1; --r)
-    for (Index j = r; j <= degree; ++j) {
+  Index first = degree, last = degree;  // of those that are not 0
+  for (Index r = degree; r >= 1; --r) {
+    for (Index j = first; j <= last; ++j) {
       const double low = knots[span - degree + j], high = knots[span + 1 + j - r];
       const double share = (arguments[r - 1] - low) / (high - low);
       weights[j - 1] += (1 - share) * weights[j];
       weights[j] *= share;
     }
+    --first;
+    while (first < last && weights[first] == 0) ++first;
+    while (first < last && weights[last] == 0) --last;
+  }
+  return {first, last + 1};
 }
 
 // --- Many parameters --------------------------------------------------------------------------------------

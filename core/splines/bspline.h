@@ -3,6 +3,7 @@
 // on the number of control points (but for the search of the span).
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/index.h"
@@ -34,9 +35,10 @@ Result<void> derivatives(const Spline& spline, double t, Index order, std::span<
 // The blossom of the piece on span `span`: the function of degree p that is affine in each of its p
 // arguments, does not mind their order, and is the curve where all of them are t. Every control point is the
 // blossom of the knots behind it, P_i = f(u_{i+1}, ..., u_{i+p}).   [Ramshaw87] `weights`: those of the
-// degree + 1 points on the span, span - p to span; they sum to 1.
-void blossom_weights(std::span<const double> knots, Index degree, Count span,
-                     std::span<const double> arguments, std::span<double> weights);
+// degree + 1 points on the span, span - p to span; they sum to 1. Returns the range [begin, end) outside of
+// which all of them are 0: arguments that are knots leave few, and take less time.
+std::pair<Index, Index> blossom_weights(std::span<const double> knots, Index degree, Count span,
+                                        std::span<const double> arguments, std::span<double> weights);
 
 // Points at many parameters: what does not depend on t is worked out once, and finding the span takes the
 // same time however many there are, but where knots crowd together in one part of the domain. Cubics without

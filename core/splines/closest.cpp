@@ -4,12 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/splines/bezier.h"
 #include "core/splines/bounds.h"
 #include "core/splines/bspline.h"
 #include "core/splines/growing_memory.h"
-#include "core/splines/measurement.h"
+#include "core/splines/piece_store.h"
 
 namespace subdivd {
 namespace {
@@ -27,8 +28,8 @@ struct Scene {
 };
 
 // The point in the curve's local coordinates, times 2^-shift.
-Result<Scene> scene_of(const Spline& spline, std::span<const double> point) {
-  Result<LocalSpline> local = localized(spline);
+Result<Scene> scene_of(const Spline& spline, std::span<const double> point, const Budget& budget) {
+  Result<LocalSpline> local = localized(spline, budget);
   if (!local) return local.error();
   const Index dimension = spline.dimension();
   // The difference of two doubles may outgrow one; half of it does not.
@@ -43,12 +44,17 @@ Result<Scene> scene_of(const Spline& spline, std::span<const double> point) {
   if (largest > 0 && (point_like || std::ilogb(largest) + 2 > exponent)) exponent = std::ilogb(largest) + 2;
   Scene scene{std::move(local->spline), product_weights(spline.degree)};
   std::vector<double>& stored = scene.spline.points;
-  for (Count i = 0; i < stored.size(); i += spline.width)
-    for (Index k = 0; k < dimension; ++k) {
-      const double weight = spline.rational ? stored[i + dimension] : 1;
-      const double away = std::ldexp(half[k], 1 - exponent);
-      stored[i + k] = std::fma(-weight, away, std::ldexp(stored[i + k], local->exponent - exponent));
+  const auto moved = stoppable(budget, [&](const Pace& pace) {
+    for (Count i = 0; i < stored.size(); i += spline.width) {
+      pace.spend(2 * Count{dimension});
+      for (Index k = 0; k < dimension; ++k) {
+        const double weight = spline.rational ? stored[i + dimension] : 1;
+        const double away = std::ldexp(half[k], 1 - exponent);
+        stored[i + k] = std::fma(-weight, away, std::ldexp(stored[i + k], local->exponent - exponent));
+      }
     }
+  });
+  if (!moved) return moved.error();
   return scene;
 }
 
@@ -58,10 +64,12 @@ struct Candidate {
   double bound;     // no point of the piece is closer, as a square
   double distance;  // of the nearer of its ends
   double parameter;
-  BezierPiece piece;
+  double begin, end;
+  Count number;  // of the curve's pieces, or in the store
+  bool stored;
   // For a heap whose front has the least bound; of equal ones the first on the curve.
   bool operator<(const Candidate& other) const {
-    return bound != other.bound ? bound > other.bound : piece.begin > other.piece.begin;
+    return bound != other.bound ? bound > other.bound : begin > other.begin;
   }
 };
 
@@ -79,7 +87,7 @@ double square_of(std::span<const double> stored, bool rational) {
 
 // min_k n_k / v_k with n = |A|^2 and v = w^2 in the Bernstein basis of degree 2p: n >= bound v holds for
 // coefficients, so it holds for the functions. Less the rounding of n_k: sums of products that may cancel.
-double least_square(const Scene& scene, const BezierPiece& piece) {
+double least_square(const Scene& scene, std::span<const double> points) {
   const Spline& spline = scene.spline;
   const Count p = spline.degree, dimension = spline.dimension(), width = spline.width;
   double least = HUGE_VAL;
@@ -88,8 +96,8 @@ double least_square(const Scene& scene, const BezierPiece& piece) {
     // Both orders of a pair at once.
     for (Count i = k > p ? k - p : 0; 2 * i <= k; ++i) {
       const Count j = k - i;
-      const double* a = &piece.points[i * width];
-      const double* b = &piece.points[j * width];
+      const double* a = &points[i * width];
+      const double* b = &points[j * width];
       const double factor = scene.product_weights[i * (p + 1) + j] * (i == j ? 1 : 2);
       for (Count x = 0; x < dimension; ++x) {
         n += factor * (a[x] * b[x]);
@@ -103,15 +111,15 @@ double least_square(const Scene& scene, const BezierPiece& piece) {
   return least;
 }
 
-Candidate candidate_of(const Scene& scene, BezierPiece piece) {
+// Of a piece over [begin, end] with the control points `points`; its number is not filled in.
+Candidate candidate_of(const Scene& scene, double begin, double end, std::span<const double> points) {
   const Spline& spline = scene.spline;
-  const std::span<const double> stored(piece.points);
-  const double at_begin = std::sqrt(square_of(stored.first(spline.width), spline.rational));
-  const double at_end = std::sqrt(square_of(stored.last(spline.width), spline.rational));
+  const double at_begin = std::sqrt(square_of(points.first(spline.width), spline.rational));
+  const double at_end = std::sqrt(square_of(points.last(spline.width), spline.rational));
   // Equally far but for rounding: the first one.
   const bool nearer_end = at_end < at_begin * (1 - rounding_of(spline));
-  const double bound = least_square(scene, piece);
-  return {bound, nearer_end ? at_end : at_begin, nearer_end ? piece.end : piece.begin, std::move(piece)};
+  const double bound = least_square(scene, points);
+  return {bound, nearer_end ? at_end : at_begin, nearer_end ? end : begin, begin, end, 0, false};
 }
 
 // --- The search -------------------------------------------------------------------------------------------
@@ -124,61 +132,88 @@ struct Found {
 // Whether the piece may hold a point at that distance or closer.
 bool reaches(const Candidate& candidate, double distance) { return candidate.bound <= distance * distance; }
 
-bool divisible(const BezierPiece& piece) {
+bool divisible(const Candidate& piece) {
   const double middle = piece.begin + (piece.end - piece.begin) / 2;
   return piece.begin < middle && middle < piece.end;
 }
 
-Result<Found> search(const Scene& scene, const Budget& budget) {
-  Found found;
-  std::vector<Candidate> heap;
-  Count steps = 0;
-  const auto consider = [&](BezierPiece piece) {
-    Candidate candidate = candidate_of(scene, std::move(piece));
-    found.distance = std::min(found.distance, candidate.distance);
-    if (!reaches(candidate, found.distance + kTie)) return;
-    // Halving would not find anything closer by more than a tie.
-    const bool settled = candidate.distance <= kTie || !reaches(candidate, candidate.distance - kTie) ||
-                         !divisible(candidate.piece);
-    if (settled) {
-      found.pieces.push_back(std::move(candidate));
-      return;
+class Search {
+ public:
+  Search(const Scene& scene, const BezierPieces& pieces, const Budget& budget, const Pace& pace)
+      : scene_(scene),
+        pieces_(pieces),
+        pace_(pace),
+        width_(scene.spline.width),
+        steps_((Count{scene.spline.degree} + 1) * (Count{scene.spline.degree} + 1) * width_),
+        memory_(budget, sizeof(Candidate) + PieceStore::kBytes,
+                kBytesPerBlock + (Count{scene.spline.degree} + 1) * width_ * sizeof(double)) {}
+
+  Result<Found> run() {
+    for (Count i = 0; i < pieces_.size(); ++i) {
+      pace_.spend(steps_);
+      if (auto taken = hold(1); !taken) return taken.error();
+      Candidate candidate = candidate_of(scene_, pieces_.begin(i), pieces_.end(i), pieces_.points(i));
+      candidate.number = i;
+      if (wanted(candidate)) put(candidate);
     }
-    heap.push_back(std::move(candidate));
-    std::push_heap(heap.begin(), heap.end());
-  };
-  auto pieces = bezier_pieces(scene.spline, budget);
-  if (!pieces) return pieces.error();
-  // What the pieces hold moves into the candidates.
-  GrowingMemory memory(
-      budget, sizeof(Candidate),
-      kBytesPerBlock + (Count{scene.spline.degree} + 1) * scene.spline.width * sizeof(double));
-  const auto hold = [&](Count more) { return memory.hold(heap.size() + found.pieces.size() + more); };
-  for (BezierPiece& piece : *pieces) {
-    if (steps++ % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    if (auto taken = hold(1); !taken) return taken.error();
-    consider(std::move(piece));
+    for (Count halved = 0; !heap_.empty(); ++halved) {
+      pace_.spend(3 * steps_);
+      std::pop_heap(heap_.begin(), heap_.end());
+      const Candidate candidate = heap_.back();
+      heap_.pop_back();
+      if (!reaches(candidate, found_.distance + kTie)) break;  // nor does any behind it
+      if (2 * halved > kMaxClosestPieces)
+        return Error{ErrorCode::too_large,
+                     "finding the closest point takes more than " + std::to_string(kMaxClosestPieces) +
+                         " pieces: too much of the curve is equally far from the point",
+                     {"point"},
+                     2 * halved,
+                     kMaxClosestPieces};
+      if (auto taken = hold(2); !taken) return taken.error();
+      const BezierPiece piece = candidate.stored ? store_.take(candidate.number) : pieces_[candidate.number];
+      for (BezierPiece& half : halves(piece, width_)) {
+        Candidate next = candidate_of(scene_, half.begin, half.end, half.points);
+        if (!wanted(next)) continue;
+        next.number = store_.keep(std::move(half), pace_);
+        next.stored = true;
+        put(next);
+      }
+    }
+    return std::move(found_);
   }
-  for (Count halved = 0; !heap.empty(); ++halved) {
-    if (steps++ % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    std::pop_heap(heap.begin(), heap.end());
-    const Candidate candidate = std::move(heap.back());
-    heap.pop_back();
-    if (!reaches(candidate, found.distance + kTie)) break;  // nor does any behind it
-    if (2 * halved > kMaxClosestPieces)
-      return Error{ErrorCode::too_large,
-                   "finding the closest point takes more than " + std::to_string(kMaxClosestPieces) +
-                       " pieces: too much of the curve is equally far from the point",
-                   {"point"},
-                   2 * halved,
-                   kMaxClosestPieces};
-    if (auto taken = hold(2); !taken) return taken.error();
-    for (BezierPiece& half : halves(candidate.piece, scene.spline.width)) consider(std::move(half));
+
+ private:
+  Result<void> hold(Count more) { return memory_.hold(heap_.size() + found_.pieces.size() + more); }
+
+  // Whether it must be halved; what is settled is kept at once.
+  bool wanted(const Candidate& candidate) {
+    found_.distance = std::min(found_.distance, candidate.distance);
+    if (!reaches(candidate, found_.distance + kTie)) return false;
+    // Halving would not find anything closer by more than a tie.
+    const bool settled =
+        candidate.distance <= kTie || !reaches(candidate, candidate.distance - kTie) || !divisible(candidate);
+    if (!settled) return true;
+    pace_.make_room(found_.pieces, 1);
+    found_.pieces.push_back(candidate);
+    return false;
   }
-  return found;
-}
+
+  void put(const Candidate& candidate) {
+    pace_.make_room(heap_, 1);
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  const Scene& scene_;
+  const BezierPieces& pieces_;
+  const Pace& pace_;
+  const Index width_;
+  const Count steps_;  // to look at a piece
+  GrowingMemory memory_;
+  Found found_;
+  std::vector<Candidate> heap_;
+  PieceStore store_;
+};
 
 // --- The right angle --------------------------------------------------------------------------------------
 
@@ -189,17 +224,21 @@ struct Stretch {
 
 // The settled pieces that are as close as the closest, from the first on as long as they follow one another;
 // in it the first corner that is not farther than the closest but for rounding.
-Stretch first_stretch(Found& found, double rounding) {
+Stretch first_stretch(Found& found, double rounding, const Pace& pace) {
   std::vector<Candidate>& pieces = found.pieces;
-  std::erase_if(pieces, [&](const Candidate& one) { return one.distance > found.distance + kTie; });
-  std::ranges::sort(pieces, {}, [](const Candidate& one) { return one.piece.begin; });
+  std::erase_if(pieces, [&](const Candidate& one) {
+    pace.spend(1);
+    return one.distance > found.distance + kTie;
+  });
+  pace.sort(pieces.begin(), pieces.end(),
+            [](const Candidate& a, const Candidate& b) { return a.begin < b.begin; });
   Count count = 1;
-  while (count < pieces.size() && pieces[count].piece.begin == pieces[count - 1].piece.end) ++count;
+  while (count < pieces.size() && pieces[count].begin == pieces[count - 1].end) ++count;
   double least = HUGE_VAL;
   for (Count i = 0; i < count; ++i) least = std::min(least, pieces[i].distance);
   Count i = 0;
   while (pieces[i].distance > least + rounding) ++i;
-  return {pieces.front().piece.begin, pieces[count - 1].piece.end, pieces[i].parameter};
+  return {pieces.front().begin, pieces[count - 1].end, pieces[i].parameter};
 }
 
 // The part of the curve that holds t, as a Bezier piece; the one before a knot where `before`.
@@ -313,14 +352,19 @@ Result<void> check_point(const Spline& spline, std::span<const double> point) {
 Result<ClosestPoint> closest_point(const Spline& spline, std::span<const double> point,
                                    const Budget& budget) {
   if (auto checked = check_point(spline, point); !checked) return checked.error();
-  const Result<Scene> scene = scene_of(spline, point);
+  const Result<Scene> scene = scene_of(spline, point, budget);
   if (!scene) return scene.error();
-  Result<Found> found = search(*scene, budget);
-  if (!found) return found.error();
-  const Stretch stretch = first_stretch(*found, rounding_of(spline));
-  Result<ClosestPoint> rough = point_at(spline, stretch.parameter, point);
+  const auto pieces = bezier_pieces(scene->spline, budget);
+  if (!pieces) return pieces.error();
+  const Result<Stretch> stretch = stoppable(budget, [&](const Pace& pace) -> Result<Stretch> {
+    Result<Found> found = Search(*scene, *pieces, budget, pace).run();
+    if (!found) return found.error();
+    return first_stretch(*found, rounding_of(spline), pace);
+  });
+  if (!stretch) return stretch.error();
+  Result<ClosestPoint> rough = point_at(spline, stretch->parameter, point);
   if (!rough) return rough;
-  Result<ClosestPoint> fine = point_at(spline, polished(*scene, stretch), point);
+  Result<ClosestPoint> fine = point_at(spline, polished(*scene, *stretch), point);
   if (!fine) return fine;
   // At right angles but farther by more than the last bits of evaluate(): the polishing has met another
   // place.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/pace.h"
 #include "core/splines/bspline.h"
 #include "core/splines/edit.h"
 #include "core/splines/knot_insertion.h"
@@ -12,26 +13,21 @@
 namespace subdivd {
 namespace {
 
-// Elevation by one as a matrix: point i of the elevated curve is sum_j weight(i, j) P_{first(i) + j}.
-struct Elevation {
-  Index degree = 0;             // before
-  std::vector<double> knots;    // after
-  std::vector<Count> first;     // per row
-  std::vector<double> weights;  // degree + 1 per row
-
-  Count rows() const { return first.size(); }
-  Count columns() const { return first.back() + degree + 1; }
-  std::span<const double> row(Count i) const {
-    return std::span(weights).subspan(i * (Count{degree} + 1), Count{degree} + 1);
-  }
+// Point i of the curve elevated by one is sum_j weights[j] P_{first + j}.
+struct ElevatedPoint {
+  Count first = 0;
+  std::vector<double> weights;  // degree + 1
+  // Of the weights, those in [begin, end) are not 0.
+  Index begin = 0, end = 0;
 };
 
-std::vector<double> each_once_more(std::span<const double> knots) {
+std::vector<double> each_once_more(std::span<const double> knots, const Pace& pace) {
   std::vector<double> more;
-  for (Count i = 0; i < knots.size(); ++i) {
+  more.reserve(2 * knots.size());
+  pace.for_each(knots.size(), [&](Count i) {
     more.push_back(knots[i]);
     if (i + 1 == knots.size() || knots[i + 1] != knots[i]) more.push_back(knots[i]);
-  }
+  });
   return more;
 }
 
@@ -46,44 +42,121 @@ Count middle_span(std::span<const double> knots, Count first, Count last) {
   }
 }
 
-// Of a curve that starts and ends at its first and last point.
-Result<Elevation> elevation(std::span<const double> knots, Index degree, const Budget& budget) {
-  const Index p = degree;
-  Elevation matrix{p, each_once_more(knots), {}, {}};
-  const Count rows = matrix.knots.size() - p - 2;
-  std::vector<double> others(p), weights(p + 1);
-  for (Count i = 0; i < rows; ++i) {
-    if (i % 256 == 0)
-      if (auto stop = budget.poll()) return *stop;
+// Of a curve that starts and ends at its first and last point, by its knots alone. Points are asked for from
+// the first to the last: nothing is looked for twice.
+class Elevation {
+ public:
+  Elevation(std::span<const double> knots, Index degree, const Pace& pace)
+      : before_(knots),
+        degree_(degree),
+        after_(each_once_more(knots, pace)),
+        span_(degree),
+        others_(degree),
+        blossom_(degree + 1),
+        pace_(pace) {}
+
+  Index degree() const { return degree_; }
+  Count size() const { return after_.size() - degree_ - 2; }
+  std::vector<double> take_knots() { return std::move(after_); }
+
+  void weigh(Count i, ElevatedPoint& point) {
+    const Index p = degree_;
     // Valid on every span of the elevated knots between knot i and knot i + p + 2.
-    const Count middle = middle_span(matrix.knots, i, i + p + 2);
-    const double inside = matrix.knots[middle];
-    const auto span = static_cast<Count>(std::ranges::upper_bound(knots, inside) - knots.begin()) - 1;
-    const std::span<const double> all = std::span(matrix.knots).subspan(i + 1, p + 1);
-    std::vector<double> mean(p + 1, 0.0);
-    for (Index without = 0; without <= p; ++without) {
-      std::copy(all.begin(), all.begin() + without, others.begin());
-      std::copy(all.begin() + without + 1, all.end(), others.begin() + without);
-      blossom_weights(knots, p, span, others, weights);
-      for (Index j = 0; j <= p; ++j) mean[j] += weights[j] / (p + 1);
+    const double inside = after_[middle_span(after_, i, i + p + 2)];
+    while (span_ > p && before_[span_] > inside) --span_;
+    while (before_[span_ + 1] <= inside) ++span_;
+    const std::span<const double> all = std::span(after_).subspan(i + 1, p + 1);
+    point.first = span_ - p;
+    point.weights.assign(p + 1, 0.0);
+    point.begin = p + 1, point.end = 0;
+    for (Index without = 0; without <= p;) {
+      std::copy(all.begin(), all.begin() + without, others_.begin());
+      std::copy(all.begin() + without + 1, all.end(), others_.begin() + without);
+      const auto [begin, end] = blossom_weights(before_, p, span_, others_, blossom_);
+      pace_.spend(2 * Count{p} + (end - begin) * Count{p} / 2);
+      point.begin = std::min(point.begin, begin), point.end = std::max(point.end, end);
+      // It does not matter which of several equal knots is left out.
+      Index next = without;
+      for (; next <= p && all[next] == all[without]; ++next)
+        for (Index j = begin; j < end; ++j) point.weights[j] += blossom_[j] / (p + 1);
+      without = next;
     }
-    matrix.first.push_back(span - p);
-    matrix.weights.insert(matrix.weights.end(), mean.begin(), mean.end());
   }
-  return matrix;
+
+ private:
+  std::span<const double> before_;
+  Index degree_;
+  std::vector<double> after_;
+  Count span_;  // of the knots before, the one that the last point was weighed on
+  std::vector<double> others_, blossom_;
+  const Pace& pace_;
+};
+
+// Exactly: an end is an end.
+void keep_ends(const Spline& spline, Spline& elevated) {
+  std::copy_n(spline.points.begin(), spline.width, elevated.points.begin());
+  std::copy_n(spline.points.end() - spline.width, spline.width, elevated.points.end() - spline.width);
 }
 
-Spline elevated(const Spline& spline, const Elevation& matrix) {
-  Spline result{spline.degree + 1, spline.width, spline.rational, spline.periodic, matrix.knots, {}};
-  result.points.assign(matrix.rows() * spline.width, 0.0);
-  for (Count i = 0; i < matrix.rows(); ++i)
+// All of its points, for who needs them more than once.
+struct ElevationMatrix {
+  Index degree = 0;
+  std::vector<Count> first;     // per row
+  std::vector<double> weights;  // degree + 1 per row
+
+  Count rows() const { return first.size(); }
+  Count columns() const { return first.back() + degree + 1; }
+  std::span<const double> row(Count i) const {
+    return std::span(weights).subspan(i * (Count{degree} + 1), Count{degree} + 1);
+  }
+};
+
+// The points alone, without knots.
+Spline elevated(const Spline& spline, const ElevationMatrix& matrix, const Pace& pace) {
+  Spline result{spline.degree + 1, spline.width, spline.rational, spline.periodic, {}, {}};
+  pace.fill(result.points, matrix.rows() * spline.width, 0);
+  for (Count i = 0; i < matrix.rows(); ++i) {
+    pace.spend(Count{spline.width} * (matrix.degree + 1));
     for (Index j = 0; j <= matrix.degree; ++j)
       for (Index k = 0; k < spline.width; ++k)
         result.points[i * spline.width + k] +=
             matrix.row(i)[j] * spline.points[(matrix.first[i] + j) * spline.width + k];
-  // Exactly: an end is an end.
-  std::copy_n(spline.points.begin(), spline.width, result.points.begin());
-  std::copy_n(spline.points.end() - spline.width, spline.width, result.points.end() - spline.width);
+  }
+  keep_ends(spline, result);
+  return result;
+}
+
+ElevationMatrix matrix_of(Elevation& elevation, const Pace& pace) {
+  ElevationMatrix matrix{elevation.degree(), {}, {}};
+  matrix.first.reserve(elevation.size());
+  matrix.weights.reserve(elevation.size() * (Count{elevation.degree()} + 1));
+  ElevatedPoint point;
+  for (Count i = 0; i < elevation.size(); ++i) {
+    pace.spend(elevation.degree());
+    elevation.weigh(i, point);
+    matrix.first.push_back(point.first);
+    matrix.weights.insert(matrix.weights.end(), point.weights.begin(), point.weights.end());
+  }
+  return matrix;
+}
+
+Spline elevated(const Spline& spline, const Pace& pace) {
+  Elevation elevation(spline.knots, spline.degree, pace);
+  Spline result{spline.degree + 1, spline.width, spline.rational, spline.periodic, {}, {}};
+  const Index width = spline.width;
+  result.points.reserve(elevation.size() * width);
+  ElevatedPoint point;
+  for (Count i = 0; i < elevation.size(); ++i) {
+    elevation.weigh(i, point);
+    pace.spend(Count{point.end - point.begin} * width);
+    result.points.insert(result.points.end(), width, 0.0);
+    double* const to = result.points.data() + i * width;
+    for (Index j = point.begin; j < point.end; ++j)
+      for (Index k = 0; k < width; ++k)
+        to[k] += point.weights[j] * spline.points[(point.first + j) * width + k];
+  }
+  keep_ends(spline, result);
+  result.knots = elevation.take_knots();
   return result;
 }
 
@@ -92,26 +165,32 @@ Spline elevated(const Spline& spline, const Elevation& matrix) {
 // A symmetric positive definite matrix of n rows and a band: entry (i, i - k) for k = 0 .. band.
 class BandMatrix {
  public:
-  BandMatrix(Count rows, Index band) : rows_(rows), band_(band), entries_(rows * (Count{band} + 1), 0.0) {}
+  BandMatrix(Count rows, Index band, const Pace& pace) : rows_(rows), band_(band), pace_(pace) {
+    pace.fill(entries_, rows * (Count{band} + 1), 0);
+  }
   double& at(Count i, Count j) { return entries_[i * (Count{band_} + 1) + (i - j)]; }
   double at(Count i, Count j) const { return entries_[i * (Count{band_} + 1) + (i - j)]; }
 
   // Into its lower factor, L L^T.   [Cholesky]
   void factor() {
-    for (Count i = 0; i < rows_; ++i)
+    for (Count i = 0; i < rows_; ++i) {
+      pace_.spend(1 + Count{band_} * band_ / 2);
       for (Count j = first(i); j <= i; ++j) {
         double sum = at(i, j);
         for (Count k = std::max(first(i), first(j)); k < j; ++k) sum -= at(i, k) * at(j, k);
         at(i, j) = i == j ? std::sqrt(sum) : sum / at(j, j);
       }
+    }
   }
   // Of the factor: x in place of the right side, `stride` numbers apart.
   void solve(double* x, Count stride) const {
     for (Count i = 0; i < rows_; ++i) {
+      pace_.spend(1 + band_);
       for (Count k = first(i); k < i; ++k) x[i * stride] -= at(i, k) * x[k * stride];
       x[i * stride] /= at(i, i);
     }
     for (Count i = rows_; i-- > 0;) {
+      pace_.spend(1 + band_);
       x[i * stride] /= at(i, i);
       for (Count k = first(i); k < i; ++k) x[k * stride] -= at(i, k) * x[i * stride];
     }
@@ -121,30 +200,36 @@ class BandMatrix {
   Count first(Count i) const { return i < band_ ? 0 : i - band_; }
   Count rows_;
   Index band_;
+  const Pace& pace_;
   std::vector<double> entries_;
 };
 
 // Points Q with the given ends whose elevation comes closest to `goal`. Inner points only are unknown: column
 // j of the matrix is unknown j - 1.
-std::vector<double> least_squares(const Elevation& matrix, const Spline& goal) {
+std::vector<double> least_squares(const ElevationMatrix& matrix, const Spline& goal, const Pace& pace) {
   const Index width = goal.width;
   const Count columns = matrix.columns();
-  std::vector<double> q(columns * width, 0.0);
+  std::vector<double> q;
+  pace.fill(q, columns * width, 0);
   std::copy_n(goal.points.begin(), width, q.begin());
   std::copy_n(goal.points.end() - width, width, q.end() - width);
   if (columns == 2) return q;
   const auto is_inner = [&](Count j) { return j > 0 && j + 1 < columns; };
-  BandMatrix normal(columns - 2, matrix.degree);
-  for (Count i = 0; i < matrix.rows(); ++i)
+  BandMatrix normal(columns - 2, matrix.degree, pace);
+  for (Count i = 0; i < matrix.rows(); ++i) {
+    pace.spend(1 + Count{matrix.degree} * matrix.degree / 2);
     for (Index a = 0; a <= matrix.degree; ++a)
       for (Index b = 0; b <= a; ++b)
         if (const Count ja = matrix.first[i] + a, jb = matrix.first[i] + b; is_inner(ja) && is_inner(jb))
           normal.at(ja - 1, jb - 1) += matrix.row(i)[a] * matrix.row(i)[b];
+  }
   normal.factor();
   // Twice more with what is left over: the normal equations square the rounding.
   for (int round = 0; round < 3; ++round) {
-    std::vector<double> right((columns - 2) * width, 0.0);
-    for (Count i = 0; i < matrix.rows(); ++i)
+    std::vector<double> right;
+    pace.fill(right, (columns - 2) * width, 0);
+    for (Count i = 0; i < matrix.rows(); ++i) {
+      pace.spend(Count{width} * (matrix.degree + 1));
       for (Index k = 0; k < width; ++k) {
         double left = goal.points[i * width + k];
         for (Index j = 0; j <= matrix.degree; ++j)
@@ -153,10 +238,62 @@ std::vector<double> least_squares(const Elevation& matrix, const Spline& goal) {
           if (const Count column = matrix.first[i] + j; is_inner(column))
             right[(column - 1) * width + k] += matrix.row(i)[j] * left;
       }
+    }
     for (Index k = 0; k < width; ++k) normal.solve(right.data() + k, width);
-    for (Count i = 0; i < right.size(); ++i) q[width + i] += right[i];
+    pace.for_each(right.size(), [&](Count i) { q[width + i] += right[i]; });
   }
   return q;
+}
+
+// --- Reduction --------------------------------------------------------------------------------------------
+
+// Knots of the curve of one degree less, and what the given one lacks to have those of its elevation.
+struct ReducedKnots {
+  std::vector<double> knots, lacking;
+};
+
+ReducedKnots reduced_knots(std::span<const double> given, const Pace& pace) {
+  ReducedKnots reduced;
+  reduced.knots.reserve(given.size());
+  reduced.lacking.reserve(given.size());
+  for (Count i = 0; i < given.size();) {
+    Count next = i;
+    while (next < given.size() && given[next] == given[i]) ++next;
+    pace.spend(next - i);
+    const Count times = std::max<Count>(next - i, 2) - 1;
+    reduced.knots.insert(reduced.knots.end(), times, given[i]);
+    if (next - i == 1) reduced.lacking.push_back(given[i]);
+    i = next;
+  }
+  return reduced;
+}
+
+Result<Approximation> reduced(const Spline& given, const Budget& budget, const Pace& pace) {
+  ReducedKnots knots = reduced_knots(given.knots, pace);
+  auto goal = refine_knots(given, knots.lacking, budget);
+  if (!goal) return std::move(goal).error();
+  const Index degree = given.degree - 1;
+  Elevation elevation(knots.knots, degree, pace);
+  const ElevationMatrix matrix = matrix_of(elevation, pace);
+  Spline result{degree, given.width, given.rational, given.periodic, {}, least_squares(matrix, *goal, pace)};
+  pace.copy(knots.knots, result.knots);
+  if (auto fine = result.check(budget); !fine) {
+    if (is_stop(fine.error())) return std::move(fine).error();
+    return Error{ErrorCode::unsupported,
+                 "no curve of one degree less was found near this one: " + fine.error().message,
+                 {},
+                 0,
+                 0};
+  }
+  const double bound = distance_bound(*goal, elevated(result, matrix, pace), pace);
+  return Approximation{std::move(result), bound};
+}
+
+// Bytes while the degree of a curve is reduced: its knots and points, those of the curves that are compared,
+// and two matrices of as many numbers per point as the degree has.
+Count bytes_to_reduce(const Spline& spline) {
+  const Count most = 2 * spline.knots.size();
+  return most * (2 * Count{spline.degree} + 6 * Count{spline.width} + 8) * sizeof(double);
 }
 
 }  // namespace
@@ -169,46 +306,24 @@ Result<Spline> elevate_degree(const Spline& spline, Index times, const Budget& b
                  {"degree"},
                  0,
                  0};
-  auto result = part(spline, spline.begin(), spline.end());
+  auto result = part(spline, spline.begin(), spline.end(), budget);
   if (!result) return result;
   result->periodic = spline.periodic;
-  for (Index k = 0; k < times; ++k) {
-    const auto matrix = elevation(result->knots, result->degree, budget);
-    if (!matrix) return matrix.error();
-    *result = elevated(*result, *matrix);
-  }
+  const auto done = stoppable(budget, [&](const Pace& pace) {
+    for (Index k = 0; k < times; ++k) *result = elevated(*result, pace);
+  });
+  if (!done) return done.error();
   return result;
 }
 
 Result<Approximation> reduce_degree(const Spline& spline, const Budget& budget) {
   if (spline.degree < 2)
     return Error{ErrorCode::out_of_range, "a curve of degree 1 has no lower degree", {"degree"}, 0, 0};
-  auto given = part(spline, spline.begin(), spline.end());
+  if (auto taken = budget.take_memory(bytes_to_reduce(spline)); !taken) return std::move(taken).error();
+  auto given = part(spline, spline.begin(), spline.end(), budget);
   if (!given) return std::move(given).error();
-  // Knots of the answer, and what the given curve lacks to have those of the answer's elevation.
-  std::vector<double> knots, lacking;
-  for (Count i = 0; i < given->knots.size();) {
-    Count next = i;
-    while (next < given->knots.size() && given->knots[next] == given->knots[i]) ++next;
-    const Count times = std::max<Count>(next - i, 2) - 1;
-    knots.insert(knots.end(), times, given->knots[i]);
-    if (next - i == 1) lacking.push_back(given->knots[i]);
-    i = next;
-  }
-  const auto goal = refine_knots(*given, lacking, budget);
-  if (!goal) return goal.error();
-  const auto matrix = elevation(knots, spline.degree - 1, budget);
-  if (!matrix) return matrix.error();
-  Spline reduced{spline.degree - 1, spline.width,     spline.rational,
-                 spline.periodic,   std::move(knots), least_squares(*matrix, *goal)};
-  if (auto fine = reduced.check(); !fine)
-    return Error{ErrorCode::unsupported,
-                 "no curve of one degree less was found near this one: " + fine.error().message,
-                 {},
-                 0,
-                 0};
-  const double bound = distance_bound(*goal, elevated(reduced, *matrix));
-  return Approximation{std::move(reduced), bound};
+  given->periodic = spline.periodic;
+  return stoppable(budget, [&](const Pace& pace) { return reduced(*given, budget, pace); });
 }
 
 }  // namespace subdivd

@@ -111,7 +111,8 @@ void divide_noise(const Spline& spline, double t, std::span<const double> rows, 
   const Index dimension = spline.dimension(), order = static_cast<Index>(noise.size()) - 1;
   const std::vector<double> weight_noise = noise_of_sums(spline, t, order, dimension, 1);
   // The weight's own derivatives, by the same sums.
-  const Spline weight{spline.degree, 1, false, spline.periodic, spline.knots, weights(spline)};
+  const Spline near = window(spline, find_span(spline, t));
+  const Spline weight{spline.degree, 1, false, false, near.knots, weights(near)};
   std::vector<double> w(Count{order} + 1);
   if (!derivatives(weight, t, order, w).ok()) w.assign(w.size(), HUGE_VAL);
   for (Index d = 0; d <= order; ++d) {

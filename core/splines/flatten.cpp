@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/pace.h"
 #include "core/splines/bezier.h"
 #include "core/splines/bounds.h"
 #include "core/splines/chord.h"
 #include "core/splines/growing_memory.h"
-#include "core/splines/measurement.h"
 
 namespace subdivd {
 namespace {
@@ -50,16 +50,16 @@ struct Part {
 // Halves `first` until every part is flat and adds the corner at the end of each, `points` in local
 // coordinates. `waiting`: pieces of the curve still to come, which are corners at least.
 Result<void> add_piece(const LocalSpline& local, BezierPiece first, double tolerance, Count most,
-                       Count waiting, const FlattenOptions& options, const Budget& budget,
-                       GrowingMemory& memory, Polyline& polyline) {
+                       Count waiting, const FlattenOptions& options, GrowingMemory& memory, const Pace& pace,
+                       Polyline& polyline) {
   const Spline& spline = local.spline;
   const double corner = rounding_of_corners(local);
   std::vector<double> scratch((Count{spline.degree} + 1) * spline.dimension());
+  const Count steps = (Count{spline.degree} + 4) * (spline.degree + 1) * spline.width;
   std::vector<Part> ahead;  // the next one last; never more than one per level
   ahead.push_back({std::move(first), 0});
-  for (Count steps = 1; !ahead.empty(); ++steps) {
-    if (steps % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+  while (!ahead.empty()) {
+    pace.spend(steps);
     Part part = std::move(ahead.back());
     ahead.pop_back();
     const double rounded = 2 * rounding(spline, part.level) + corner;
@@ -68,7 +68,9 @@ Result<void> add_piece(const LocalSpline& local, BezierPiece first, double toler
       if (corners + ahead.size() + waiting > most)
         return too_many_corners(corners + ahead.size() + waiting, most);
       if (auto taken = memory.hold(corners); !taken) return taken;
+      pace.make_room(polyline.parameters, 1);
       polyline.parameters.push_back(part.piece.end);
+      pace.make_room(polyline.points, spline.dimension());
       polyline.points.insert(polyline.points.end(), scratch.end() - spline.dimension(), scratch.end());
       continue;
     }
@@ -91,40 +93,53 @@ void keep_ends(const Spline& spline, Polyline& polyline) {
 
 }  // namespace
 
+namespace {
+
+// In local coordinates.
+Result<Polyline> local_polyline(const LocalSpline& local, const BezierPieces& pieces, Count most,
+                                const FlattenOptions& options, const Budget& budget, const Pace& pace) {
+  const Spline& spline = local.spline;
+  const Index dimension = spline.dimension();
+  // May be infinite, which is fine with comparisons: so large a tolerance is kept by every chord, and any is
+  // by a curve that is but a point.
+  const bool is_point = local.control.low == local.control.high;
+  const double tolerance = is_point ? HUGE_VAL : std::ldexp(options.tolerance, -local.exponent);
+  Polyline polyline;
+  GrowingMemory memory(budget, (Count{dimension} + 1) * sizeof(double), 0);
+  polyline.parameters.push_back(pieces.begin(0));
+  polyline.points.resize(dimension);
+  project(pieces.points(0).first(spline.width), spline.rational, polyline.points);
+  for (Count i = 0; i < pieces.size(); ++i) {
+    const Count waiting = pieces.size() - 1 - i;
+    if (auto added = add_piece(local, pieces[i], tolerance, most, waiting, options, memory, pace, polyline);
+        !added)
+      return added.error();
+  }
+  return polyline;
+}
+
+}  // namespace
+
 Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, const Budget& budget) {
   if (auto checked = check_tolerance(options); !checked) return checked.error();
-  const Result<LocalSpline> local = localized(spline);
+  const Result<LocalSpline> local = localized(spline, budget);
   if (!local) return local.error();
   const Index dimension = spline.dimension();
   const Count fitting = budget.max_bytes / ((Count{dimension} + 1) * sizeof(double));
   const Count most = std::min(options.max_points, fitting);
-  auto made = bezier_pieces(local->spline, budget);
-  if (!made) return made.error();
-  std::vector<BezierPiece> pieces = *std::move(made);
-  if (pieces.size() + 1 > most) return too_many_corners(pieces.size() + 1, most);
-
-  // May be infinite, which is fine with comparisons: so large a tolerance is kept by every chord, and any is
-  // by a curve that is but a point.
-  const bool is_point = local->control.low == local->control.high;
-  const double tolerance = is_point ? HUGE_VAL : std::ldexp(options.tolerance, -local->exponent);
-  Polyline polyline;
-  GrowingMemory memory(budget, (Count{dimension} + 1) * sizeof(double), 0);
-  polyline.parameters.push_back(pieces.front().begin);
-  polyline.points.resize(dimension);
-  project(std::span(pieces.front().points).first(spline.width), spline.rational, polyline.points);
-  for (Count i = 0; i < pieces.size(); ++i) {
-    if (i % kPiecesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    const Count waiting = pieces.size() - 1 - i;
-    if (auto added = add_piece(*local, std::move(pieces[i]), tolerance, most, waiting, options, budget,
-                               memory, polyline);
-        !added)
-      return added.error();
-  }
-  for (Count i = 0; i < polyline.points.size(); ++i)
-    polyline.points[i] = local->to_global(static_cast<Index>(i % dimension), polyline.points[i]);
-  keep_ends(spline, polyline);
-  return polyline;
+  const auto pieces = bezier_pieces(local->spline, budget);
+  if (!pieces) return pieces.error();
+  if (pieces->size() + 1 > most) return too_many_corners(pieces->size() + 1, most);
+  return stoppable(budget, [&](const Pace& pace) {
+    auto polyline = local_polyline(*local, *pieces, most, options, budget, pace);
+    if (!polyline) return polyline;
+    std::vector<double>& points = polyline->points;
+    pace.for_each(points.size(), [&](Count i) {
+      points[i] = local->to_global(static_cast<Index>(i % dimension), points[i]);
+    });
+    keep_ends(spline, *polyline);
+    return polyline;
+  });
 }
 
 }  // namespace subdivd

@@ -1,16 +1,14 @@
 #include "core/splines/knot_insertion.h"
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/splines/passage.h"
 
 namespace subdivd {
 namespace {
-
-constexpr Count kInsertionsPerPoll = 4096;
 
 // Inserts t once where the passage stands; no t before was larger.
 //   Q_i = (1 - a_i) P_{i-1} + a_i P_i,  a_i = (t - u_i) / (u_{i+p} - u_i)  for k - p < i < first
@@ -35,6 +33,8 @@ void insert(Passage& passage, double t) {
   }
   done.knots.push_back(t);
 }
+
+constexpr Count kSearch = 32;  // steps of a search among all knots
 
 Error too_often(double t, Index degree, Count times, bool at_end) {
   return Error{ErrorCode::out_of_range,
@@ -67,15 +67,19 @@ Result<void> check_room(const Spline& spline, double t, Count times) {
 
 Result<Spline> insert_knot(const Spline& spline, double t, Index times) {
   if (auto room = check_room(spline, t, times); !room) return std::move(room).error();
-  Passage passage(spline, times);
+  const Pace pace;
+  Passage passage(spline, times, pace);
   for (Index k = 0; k < times; ++k) insert(passage, t);
   return passage.finish();
 }
 
-Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots, const Budget& budget) {
+namespace {
+
+Result<void> check_insertions(const Spline& spline, std::span<const double> knots, const Pace& pace) {
   for (Count first = 0; first < knots.size();) {
     Count next = first;
     while (next < knots.size() && knots[next] == knots[first]) ++next;
+    pace.spend(next - first + kSearch);
     if (next == first || (next < knots.size() && knots[next] < knots[first]))
       return Error{ErrorCode::out_of_range,
                    "the knots to insert must be numbers that never fall",
@@ -88,54 +92,82 @@ Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots,
     }
     first = next;
   }
-  Passage passage(spline, knots.size());
-  for (Count k = 0; k < knots.size(); ++k) {
-    if (k % kInsertionsPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
-    insert(passage, knots[k]);
-  }
-  return passage.finish();
+  return {};
 }
 
-Count refined_point_count(const Spline& spline, Index level) {
+}  // namespace
+
+Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) -> Result<Spline> {
+    if (auto room = check_insertions(spline, knots, pace); !room) return std::move(room).error();
+    Passage passage(spline, knots.size(), pace);
+    for (const double t : knots) {
+      pace.spend(Count{spline.degree} * spline.width);
+      insert(passage, t);
+    }
+    return passage.finish();
+  });
+}
+
+Count refined_point_count(const Spline& spline, Index level, const Pace& pace) {
   Count spans = 0;
-  for (Count k = spline.degree; k < spline.point_count(); ++k) spans += spline.knots[k] < spline.knots[k + 1];
+  pace.for_each(spline.point_count() - spline.degree, [&](Count k) {
+    spans += spline.knots[spline.degree + k] < spline.knots[spline.degree + k + 1];
+  });
   return spline.point_count() + spans * ((Count{1} << level) - 1);
 }
 
-Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget) {
-  const Count points = refined_point_count(spline, level);
-  if (points > kMaxIndexCount)
-    return Error{
-        ErrorCode::too_large,
-        "the refined curve would have more points than 32-bit indices can number: choose a lower level",
-        {},
-        points,
-        kMaxIndexCount};
-  if (auto room = budget.check_bytes(points * (spline.width + 1) * sizeof(double)); !room)
-    return std::move(room).error();
+namespace {
+
+// The knots that cut every span into 2^level equal ones; `count` of them.
+Result<std::vector<double>> knots_between(const Spline& spline, Index level, Count count, const Pace& pace) {
   // Level by level, so that a knot is the middle of its neighbours to the bit; together they ascend.
-  std::vector<double> knots;
-  knots.reserve(points - spline.point_count());
+  std::vector<double> knots, span;
+  knots.reserve(count);
   const Count parts = Count{1} << level;
-  std::vector<double> span(parts + 1);
+  pace.fill(span, parts + 1, 0);
   for (Count k = spline.degree; k < spline.point_count(); ++k) {
+    pace.spend(1);
     if (!(spline.knots[k] < spline.knots[k + 1])) continue;
     span[0] = spline.knots[k];
     span[parts] = spline.knots[k + 1];
     for (Count step = parts; step > 1; step /= 2)
-      for (Count i = step / 2; i < parts; i += step)
+      pace.for_each(parts / step, [&](Count n) {
+        const Count i = n * step + step / 2;
         span[i] = span[i - step / 2] + (span[i + step / 2] - span[i - step / 2]) / 2;
-    if (std::ranges::adjacent_find(span, std::greater_equal<>()) != span.end())
+      });
+    bool rising = true;
+    pace.for_each(parts, [&](Count i) { rising = rising && span[i] < span[i + 1]; });
+    if (!rising)
       return Error{ErrorCode::out_of_range,
                    "the knots " + std::to_string(span[0]) + " and " + std::to_string(span[parts]) +
                        " are too close to put " + std::to_string(parts - 1) + " between them",
                    {"knots", std::uint64_t{k}},
                    0,
                    0};
-    knots.insert(knots.end(), span.begin() + 1, span.end() - 1);
+    pace.append(std::span(span).subspan(1, parts - 1), knots);
   }
-  return refine_knots(spline, knots, budget);
+  return knots;
+}
+
+}  // namespace
+
+Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget) {
+  const auto knots = stoppable(budget, [&](const Pace& pace) -> Result<std::vector<double>> {
+    const Count points = refined_point_count(spline, level, pace);
+    if (points > kMaxIndexCount)
+      return Error{
+          ErrorCode::too_large,
+          "the refined curve would have more points than 32-bit indices can number: choose a lower level",
+          {},
+          points,
+          kMaxIndexCount};
+    if (auto room = budget.check_bytes(points * (spline.width + 1) * sizeof(double)); !room)
+      return std::move(room).error();
+    return knots_between(spline, level, points - spline.point_count(), pace);
+  });
+  if (!knots) return knots.error();
+  return refine_knots(spline, *knots, budget);
 }
 
 }  // namespace subdivd

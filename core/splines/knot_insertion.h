@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/splines/spline.h"
 
@@ -24,6 +25,6 @@ Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots,
 // budget's bytes.
 Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget);
 // Its number of points: n + (spans that are not empty) (2^level - 1).
-Count refined_point_count(const Spline& spline, Index level);
+Count refined_point_count(const Spline& spline, Index level, const Pace& pace = {});
 
 }  // namespace subdivd

@@ -6,11 +6,15 @@
 #include <optional>
 #include <string>
 
+#include "core/base/pace.h"
 #include "core/splines/knot_insertion.h"
 #include "core/splines/passage.h"
 
 namespace subdivd {
 namespace {
+
+constexpr Count kSearch = 32;         // steps of a search among all knots
+constexpr Count kStepsOfRemoval = 8;  // per number of the points that can feel it
 
 double length(std::span<const double> vector) {
   double result = 0;
@@ -97,13 +101,14 @@ Result<void> check_tolerance(double tolerance) {
 
 }  // namespace
 
-double distance_bound(const Spline& a, const Spline& b) {
+double distance_bound(const Spline& a, const Spline& b, const Pace& pace) {
   assert(a.points.size() == b.points.size() && a.width == b.width);
   const Index dimension = a.dimension();
   double farthest = 0, farthest_point = 0, farthest_weight = 0, lightest = 1;
   if (a.rational) lightest = a.point(0)[dimension];
   std::vector<double> difference(dimension), point(dimension);
   for (Count i = 0; i < a.point_count(); ++i) {
+    pace.spend(4 * Count{dimension});
     const auto p = a.point(i), q = b.point(i);
     for (Index k = 0; k < dimension; ++k) difference[k] = p[k] - q[k];
     farthest = std::max(farthest, length(difference));
@@ -120,13 +125,14 @@ namespace {
 
 // Removes the last knot that the passage has come to up to `times` times; what is lost is added to `bound`.
 // Only the points that can feel it are looked at.
-Index remove_here(Passage& passage, Index times, double tolerance, double& bound) {
+Index remove_here(Passage& passage, Index times, double tolerance, double& bound, const Pace& pace) {
   Spline& done = passage.done();
   const Index p = done.degree, width = done.width;
   const double t = done.knots.back();
   for (Index removed = 0; removed < times; ++removed) {
     const Count knot = done.knots.size() - 1;
     const Count begin = knot - std::min(knot, Count{2} * p), end = std::min(knot + p, passage.point_count());
+    pace.spend(kStepsOfRemoval * (end - begin) * width);
     Spline near{p, width, done.rational, false, {}, {}};
     for (Count i = begin; i < end + p + 1; ++i) near.knots.push_back(passage.knot(i));
     for (Count i = begin; i < end; ++i)
@@ -145,40 +151,184 @@ Index remove_here(Passage& passage, Index times, double tolerance, double& bound
 
 }  // namespace
 
-Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance) {
+namespace {
+
+Error no_such_knot(const Spline& spline, double t) {
+  return Error{ErrorCode::out_of_range,
+               "there is no knot " + std::to_string(t) + " inside the domain, " +
+                   std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
+               {},
+               0,
+               0};
+}
+
+// A spline whose knots go in any order: they and their points are linked to their neighbours, so that what
+// goes leaves the others where they are.
+class LinkedKnots {
+ public:
+  LinkedKnots(const Spline& spline, const Pace& pace) : pace_(pace), spline_(copy_of(spline, pace)) {
+    const Count knots = spline.knots.size();
+    before_.reserve(knots);
+    behind_.reserve(knots);
+    pace.for_each(knots, [&](Count i) {
+      before_.push_back(i == 0 ? kNone : static_cast<Index>(i - 1));
+      behind_.push_back(i + 1 == knots ? kNone : static_cast<Index>(i + 1));
+    });
+    gone_.reserve(knots);
+    pace.fill(gone_, knots, 0);
+  }
+
+  // As often as there was, and is, a knot t inside the domain. Nothing: there never was one.
+  std::optional<Index> times(double t) const {
+    if (!(t > spline_.begin() && t < spline_.end())) return {};
+    const auto [first, last] = equal(t);
+    if (first == last) return {};
+    return static_cast<Index>(std::count(gone_.begin() + first, gone_.begin() + last, 0));
+  }
+
+  // Removes the last of the knots t, of which there is one, unless it costs more than `tolerance`: what it
+  // costs, or nothing.
+  std::optional<double> remove(double t, double tolerance) {
+    const auto [first, last] = equal(t);
+    auto knot = static_cast<Index>(last - 1);
+    while (gone_[knot] != 0) --knot;
+    gather_near(knot);
+    const Count points = near_.knots.size() - spline_.degree - 1;
+    const Index width = spline_.width;
+    near_.points.clear();
+    for (Count i = 0; i < points; ++i) {
+      const auto point = spline_.point(numbers_[i]);
+      near_.points.insert(near_.points.end(), point.begin(), point.end());
+    }
+    pace_.spend(kStepsOfRemoval * points * width);
+    const auto next = removed_once(near_, t);
+    if (!next || !(next->bound <= tolerance)) return {};
+    unlink(knot);
+    // Its point goes with it; the others near it take what is left.
+    for (Count i = 0, from = 0; i < points; ++i) {
+      if (numbers_[i] == knot) continue;
+      std::copy_n(next->spline.points.begin() + static_cast<std::ptrdiff_t>(from++ * width), width,
+                  spline_.points.begin() + static_cast<std::ptrdiff_t>(Count{numbers_[i]} * width));
+    }
+    return next->bound;
+  }
+
+  // What is left, moved together.
+  Spline finish() {
+    const Count points = spline_.point_count(), width = spline_.width;
+    Count kept = 0, kept_points = 0;
+    pace_.for_each(spline_.knots.size(), [&](Count i) {
+      if (gone_[i] != 0) return;
+      spline_.knots[kept++] = spline_.knots[i];
+      if (i >= points) return;
+      if (kept_points != i)
+        std::copy_n(spline_.points.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                    spline_.points.begin() + static_cast<std::ptrdiff_t>(kept_points * width));
+      ++kept_points;
+    });
+    spline_.knots.resize(kept);
+    spline_.points.resize(kept_points * width);
+    return std::move(spline_);
+  }
+
+ private:
+  static constexpr Index kNone = ~Index{0};
+
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> equal(double t) const {
+    const auto [first, last] = std::equal_range(spline_.knots.begin(), spline_.knots.end(), t);
+    return {first - spline_.knots.begin(), last - spline_.knots.begin()};
+  }
+
+  // The knots that a removal can feel, 2 p on either side, and their numbers.
+  void gather_near(Index knot) {
+    const Index reach = 2 * spline_.degree;
+    Index begin = knot;
+    for (Index k = 0; k < reach && before_[begin] != kNone; ++k) begin = before_[begin];
+    numbers_.clear();
+    Index behind = 0;
+    for (Index i = begin; i != kNone && behind <= reach; i = behind_[i]) {
+      numbers_.push_back(i);
+      if (i == knot || behind > 0) ++behind;
+    }
+    near_.degree = spline_.degree;
+    near_.width = spline_.width;
+    near_.rational = spline_.rational;
+    near_.knots.clear();
+    for (const Index i : numbers_) near_.knots.push_back(spline_.knots[i]);
+  }
+
+  void unlink(Index knot) {
+    gone_[knot] = 1;
+    behind_[before_[knot]] = behind_[knot];
+    before_[behind_[knot]] = before_[knot];
+  }
+
+  const Pace& pace_;
+  Spline spline_;
+  std::vector<Index> before_, behind_;
+  std::vector<unsigned char> gone_;
+  Spline near_;
+  std::vector<Index> numbers_;
+};
+
+}  // namespace
+
+Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance,
+                            const Budget& budget) {
   if (auto fine = check_tolerance(tolerance); !fine) return std::move(fine).error();
-  const Index there = multiplicity(spline.knots, t);
-  if (!(t > spline.begin() && t < spline.end()) || there == 0)
-    return Error{ErrorCode::out_of_range,
-                 "there is no knot " + std::to_string(t) + " inside the domain, " +
-                     std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
-                 {},
-                 0,
-                 0};
-  Passage passage(spline);
-  passage.go_to(t);
-  double bound = 0;
-  const Index removed = remove_here(passage, std::min(times, there), tolerance, bound);
-  return Removal{{passage.finish(), bound}, removed};
+  return stoppable(budget, [&](const Pace& pace) -> Result<Removal> {
+    const Index there = multiplicity(spline.knots, t);
+    if (!(t > spline.begin() && t < spline.end()) || there == 0) return no_such_knot(spline, t);
+    Passage passage(spline, 0, pace);
+    passage.go_to(t);
+    double bound = 0;
+    const Index removed = remove_here(passage, std::min(times, there), tolerance, bound, pace);
+    return Removal{{passage.finish(), bound}, removed};
+  });
+}
+
+Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
+                              const Budget& budget) {
+  if (auto fine = check_tolerance(tolerance); !fine) return std::move(fine).error();
+  return stoppable(budget, [&](const Pace& pace) -> Result<Thinning> {
+    LinkedKnots linked(spline, pace);
+    Thinning thinning{{{}, 0}, 0};
+    for (Count k = 0; k < knots.size(); ++k) {
+      pace.spend(kSearch);
+      const auto there = linked.times(knots[k]);
+      if (!there) {
+        Error error = no_such_knot(spline, knots[k]);
+        error.where = {std::uint64_t{k}};
+        return error;
+      }
+      if (*there == 0) continue;  // no fault: earlier removals have taken it
+      const auto bound = linked.remove(knots[k], tolerance - thinning.result.bound);
+      if (!bound) continue;
+      ++thinning.removed;
+      thinning.result.bound += *bound;
+    }
+    thinning.result.spline = linked.finish();
+    return thinning;
+  });
 }
 
 namespace {
 
 // One way through all knots inside the domain: removes those that cost at most `each`, no two neighbours, for
 // where a gap grows from one side rounding grows with it. Returns how many.
-Result<Count> thin_out(Approximation& curve, double each, double tolerance, const Budget& budget) {
+Count thin_out(Approximation& curve, double each, double tolerance, const Pace& pace) {
   const Spline source = std::move(curve.spline);
-  Passage passage(source);
+  Passage passage(source, 0, pace);
   Count all = 0;
   bool skip = false;
   for (auto next = std::ranges::upper_bound(source.knots, source.begin()); *next < source.end();) {
-    if (auto stop = budget.poll()) return *stop;
-    const auto behind = std::upper_bound(next, source.knots.end(), *next);
+    auto behind = next;
+    while (*behind == *next) ++behind;  // there are others behind it
     passage.go_to(*next);
     Index removed = 0;
     if (!skip)
       removed = remove_here(passage, static_cast<Index>(behind - next),
-                            std::min(tolerance, curve.bound + each), curve.bound);
+                            std::min(tolerance, curve.bound + each), curve.bound, pace);
     all += removed;
     skip = removed > 0;
     next = behind;
@@ -191,19 +341,20 @@ Result<Count> thin_out(Approximation& curve, double each, double tolerance, cons
 
 Result<Thinning> remove_knots(const Spline& spline, double tolerance, const Budget& budget) {
   if (auto fine = check_tolerance(tolerance); !fine) return std::move(fine).error();
-  Thinning thinning{{spline, 0}, 0};
-  // What costs nothing first: a knot that carries something costs little, too, as long as its neighbours
-  // stand close, but they could not go any more.
-  constexpr double kFactor = 16;
-  double each = std::min(tolerance, 0x1p-50 * extent(spline));
-  while (true) {
-    const auto removed = thin_out(thinning.result, each, tolerance, budget);
-    if (!removed) return removed.error();
-    thinning.removed += *removed;
-    if (*removed > 0) continue;
-    if (each >= tolerance) return thinning;
-    each = each > 0 ? std::min(tolerance, each * kFactor) : tolerance;
-  }
+  return stoppable(budget, [&](const Pace& pace) {
+    Thinning thinning{{copy_of(spline, pace), 0}, 0};
+    // What costs nothing first: a knot that carries something costs little, too, as long as its neighbours
+    // stand close, but they could not go any more.
+    constexpr double kFactor = 16;
+    double each = std::min(tolerance, 0x1p-50 * extent(spline, pace));
+    while (true) {
+      const Count removed = thin_out(thinning.result, each, tolerance, pace);
+      thinning.removed += removed;
+      if (removed > 0) continue;
+      if (each >= tolerance) return thinning;
+      each = each > 0 ? std::min(tolerance, each * kFactor) : tolerance;
+    }
+  });
 }
 
 }  // namespace subdivd

@@ -1,7 +1,10 @@
 #pragma once
 // Fewer knots, the same curve or one near to it, with a bound that is proven.
 
+#include <span>
+
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/splines/spline.h"
 
@@ -17,7 +20,8 @@ struct Approximation {
 // combinations of its control points, so it is the largest distance of control points; of rational ones
 // |A/w - B/v| = |(A - B) - (B/v)(w - v)| / w <= (max |A_i - B_i| + max |B_i/v_i| max |w_i - v_i|) / min w_i.
 // Rounding of the comparison itself is not counted.
-double distance_bound(const Spline& a, const Spline& b);
+// With a pace, throws Stopped.
+double distance_bound(const Spline& a, const Spline& b, const Pace& pace = {});
 
 struct Removal {
   Approximation result;
@@ -28,12 +32,20 @@ struct Removal {
 // (>= 0, an absolute distance) of the given one, by the bound. The given curve is never replaced by one that
 // is further away. out_of_range when t is no knot inside the domain or the tolerance is below 0 or no number.
 //   [Tiller92; by least squares, and with the bound measured instead of estimated]
-Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance);
+Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance,
+                            const Budget& budget = {});
 
 struct Thinning {
   Approximation result;
   Count removed = 0;
 };
+
+// Removes each of `knots` once, one after the other in their order, as remove_knot() would, the bounds of all
+// removals together within `tolerance`: a knot that would cost more stays, and one that has been removed as
+// often as it stood there is passed over. Time by the number of knots and by that of the curve's, not by
+// their product. Fails as remove_knot(), a knot's place being {i}.
+Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
+                              const Budget& budget);
 
 // Removes knots inside the domain until none is left that could be, the bounds of all removals together
 // within `tolerance`. Which of them stay where not all can go depends on their order alone.

@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/splines/spline.h"
 
 namespace subdivd {
 
 class Passage {
  public:
-  // Makes room for `more` knots. `source` must outlive it.
-  explicit Passage(const Spline& source, Count more = 0) : source_(source) {
+  // Makes room for `more` knots. `source` and `pace` must outlive it; on the way it may throw Stopped.
+  Passage(const Spline& source, Count more, const Pace& pace) : source_(source), pace_(pace) {
     done_.degree = source.degree;
     done_.width = source.width;
     done_.rational = source.rational;
@@ -47,6 +48,7 @@ class Passage {
 
  private:
   void move_on() {
+    pace_.spend(1 + source_.width);
     done_.knots.push_back(source_.knots[next_]);
     if (next_ < source_.point_count()) {
       const std::span<const double> point = source_.point(next_);
@@ -56,6 +58,7 @@ class Passage {
   }
 
   const Spline& source_;
+  const Pace& pace_;
   Spline done_;
   Count next_ = 0;  // of the source's knots
 };

@@ -24,6 +24,7 @@ void cut(std::vector<double>& points, Index width, double u, bool keep_left) {
 // Rounding of the points is relative to the extent of what they were combined from, so a term of N may be
 // wrong by roundings of p * extent, whatever its own size.
 SpeedPiece Ruler::piece_of(const LocalSpline& local) const {
+  pace_.spend(Count{p_ + 1} * (p_ + 1) * (dimension_ + 1));
   const std::vector<BezierPiece> pieces = bezier_pieces(local.spline);
   const BezierPiece& bezier = pieces.front();
   const double reach = p_ * extent(local.spline);
@@ -58,6 +59,7 @@ SpeedPiece Ruler::piece_of(const LocalSpline& local) const {
 }
 
 std::array<SpeedPiece, 2> Ruler::halves(const SpeedPiece& piece) const {
+  pace_.spend(Count{n_ + 1} * (n_ + 1) * row_width() / 2);
   auto derivative = subdivd::halves(piece.derivative, row_width());
   std::array<SpeedPiece, 2> both;
   for (Index side = 0; side < 2; ++side) {
@@ -72,6 +74,7 @@ std::array<SpeedPiece, 2> Ruler::halves(const SpeedPiece& piece) const {
 }
 
 SpeedPiece Ruler::part(const SpeedPiece& piece, double from, double to) const {
+  pace_.spend(Count{n_ + 1} * (n_ + 1) * row_width());
   SpeedPiece result = piece;
   const auto cut_both = [&](double u, bool keep_left) {
     cut(result.derivative.points, row_width(), u, keep_left);
@@ -99,7 +102,8 @@ double Ruler::speed_at_end(const SpeedPiece& piece) const {
 // Bernstein coefficients of |N|^2, degree 2n.
 std::vector<double> Ruler::square_of(const SpeedPiece& piece) const {
   std::vector<double> q(2 * Count{n_} + 1, 0.0);
-  for (Count i = 0; i <= n_; ++i)
+  for (Count i = 0; i <= n_; ++i) {
+    pace_.spend((Count{n_} + 1) * dimension_);
     for (Count j = 0; j <= n_; ++j) {
       const double* a = &piece.derivative.points[i * row_width()];
       const double* b = &piece.derivative.points[j * row_width()];
@@ -107,6 +111,7 @@ std::vector<double> Ruler::square_of(const SpeedPiece& piece) const {
       for (Index x = 0; x < dimension_; ++x) product += a[x] * b[x];
       q[i + j] += square_weights_[i * (n_ + 1) + j] * product;
     }
+  }
   return q;
 }
 
@@ -131,6 +136,7 @@ std::optional<double> Ruler::gauss_error(const SpeedPiece& piece) const {
 double Ruler::gauss_sum(const SpeedPiece& piece) const {
   double sum = 0;
   for (Count i = 0; i < rule_.nodes.size(); ++i) {
+    pace_.spend((Count{n_} + 1) * dimension_);
     const double* basis = &derivative_table_[i * (n_ + 1)];
     double square = 0, weight = rational_ ? 0 : 1;
     for (Index x = 0; x < dimension_; ++x) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/splines/bezier.h"
 #include "core/splines/bounds.h"
 #include "core/splines/gauss_rule.h"
@@ -40,8 +41,10 @@ struct Interval {
 // Measures pieces of one kind: the tables depend on degree, dimension and whether there are weights.
 class Ruler {
  public:
-  explicit Ruler(const Spline& spline)
-      : p_(spline.degree),
+  // Throws Stopped when the pace has no more to spend; it must outlive the ruler.
+  Ruler(const Spline& spline, const Pace& pace)
+      : pace_(pace),
+        p_(spline.degree),
         dimension_(spline.dimension()),
         rational_(spline.rational),
         n_(rational_ ? 2 * p_ - 2 : p_ - 1),
@@ -70,6 +73,7 @@ class Ruler {
   std::optional<double> gauss_error(const SpeedPiece& piece) const;
   double gauss_sum(const SpeedPiece& piece) const;
 
+  const Pace& pace_;
   Index p_, dimension_;
   bool rational_;
   Index n_;  // degree of N

@@ -18,11 +18,13 @@ Error fault(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where), 0, 0};
 }
 
-Result<void> check_multiplicities(std::span<const double> knots, Index degree, Count points) {
+Result<void> check_multiplicities(std::span<const double> knots, Index degree, Count points,
+                                  const Pace& pace) {
   const double begin = knots[degree], end = knots[points];
   for (Count first = 0; first < knots.size();) {
     Count next = first;
     while (next < knots.size() && knots[next] == knots[first]) ++next;
+    pace.spend(next - first);
     const bool inside = knots[first] > begin && knots[first] < end;
     const Count allowed = inside ? degree : Count{degree} + 1;
     if (next - first > allowed)
@@ -37,9 +39,8 @@ Result<void> check_multiplicities(std::span<const double> knots, Index degree, C
   return {};
 }
 
-}  // namespace
-
-Result<void> check_knots(std::span<const double> knots, Index degree, Count points) {
+// What is wrong with these knots alone, for n points: wrong_length, not_finite, out_of_range at {"knots", i}.
+Result<void> check_knots(std::span<const double> knots, Index degree, Count points, const Pace& pace) {
   if (knots.size() != points + degree + 1)
     return fault(ErrorCode::wrong_length,
                  "there are " + std::to_string(knots.size()) + " knots; " + std::to_string(points) +
@@ -47,6 +48,7 @@ Result<void> check_knots(std::span<const double> knots, Index degree, Count poin
                      std::to_string(points + degree + 1),
                  {"knots"});
   for (Count i = 0; i < knots.size(); ++i) {
+    pace.spend(1);
     if (!std::isfinite(knots[i]))
       return fault(ErrorCode::not_finite, "knot " + std::to_string(i) + " is not a finite number",
                    {"knots", std::uint64_t{i}});
@@ -61,10 +63,33 @@ Result<void> check_knots(std::span<const double> knots, Index degree, Count poin
                  "the domain, from knot " + std::to_string(degree) + " to knot " + std::to_string(points) +
                      ", must have a length above 0, and all knots a finite one",
                  {"knots"});
-  return check_multiplicities(knots, degree, points);
+  return check_multiplicities(knots, degree, points, pace);
 }
 
-Result<void> Spline::check() const {
+Result<void> check_numbers(const Spline& spline, const Pace& pace) {
+  const Index width = spline.width;
+  for (Count k = 0; k < spline.points.size(); ++k) {
+    pace.spend(1);
+    if (!std::isfinite(spline.points[k]))
+      return fault(ErrorCode::not_finite,
+                   "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
+                       " is not a finite number",
+                   {"points", std::uint64_t{k}});
+  }
+  if (!spline.rational) return {};
+  for (Count i = 0; i < spline.point_count(); ++i) {
+    pace.spend(1);
+    if (const double weight = spline.point(i)[width - 1]; !(weight > 0))
+      return fault(ErrorCode::out_of_range,
+                   "weight " + std::to_string(i) + " is " + number(weight) + "; weights are above 0",
+                   {"pointWeights", std::uint64_t{i}});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> Spline::check(const Budget& budget) const {
   if (degree < 1 || degree > kMaxDegree)
     return fault(
         ErrorCode::out_of_range,
@@ -80,19 +105,10 @@ Result<void> Spline::check() const {
                  {"points"});
   if (point_count() >= kMaxIndexCount - kMaxDegree - 1)
     return fault(ErrorCode::too_large, "there are more points than 32-bit indices can number", {"points"});
-  for (Count k = 0; k < points.size(); ++k)
-    if (!std::isfinite(points[k]))
-      return fault(ErrorCode::not_finite,
-                   "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
-                       " is not a finite number",
-                   {"points", std::uint64_t{k}});
-  if (rational)
-    for (Count i = 0; i < point_count(); ++i)
-      if (const double weight = point(i)[width - 1]; !(weight > 0))
-        return fault(ErrorCode::out_of_range,
-                     "weight " + std::to_string(i) + " is " + number(weight) + "; weights are above 0",
-                     {"pointWeights", std::uint64_t{i}});
-  return check_knots(knots, degree, point_count());
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    if (auto fine = check_numbers(*this, pace); !fine) return fine;
+    return check_knots(knots, degree, point_count(), pace);
+  });
 }
 
 Index multiplicity(std::span<const double> knots, double t) {
@@ -125,47 +141,66 @@ Result<double> check_parameter(const Spline& spline, double t) {
 }
 
 std::vector<double> homogeneous(std::span<const double> points, Index dimension,
-                                std::span<const double> weights) {
+                                std::span<const double> weights, const Pace& pace) {
   const Count count = points.size() / dimension;
   std::vector<double> stored;
   stored.reserve(count * (Count{dimension} + 1));
   for (Count i = 0; i < count; ++i) {
+    pace.spend(Count{dimension} + 1);
     for (Index k = 0; k < dimension; ++k) stored.push_back(points[i * dimension + k] * weights[i]);
     stored.push_back(weights[i]);
   }
   return stored;
 }
 
-std::vector<double> projected(const Spline& spline) {
-  if (!spline.rational) return spline.points;
+std::vector<double> projected(const Spline& spline, const Pace& pace) {
   std::vector<double> points;
+  if (!spline.rational) {
+    pace.copy(spline.points, points);
+    return points;
+  }
   points.reserve(spline.point_count() * spline.dimension());
-  for (Count i = 0; i < spline.point_count(); ++i)
+  for (Count i = 0; i < spline.point_count(); ++i) {
+    pace.spend(spline.width);
     for (Index k = 0; k < spline.dimension(); ++k)
       points.push_back(spline.point(i)[k] / spline.point(i)[spline.dimension()]);
+  }
   return points;
 }
 
-std::vector<double> weights(const Spline& spline) {
+std::vector<double> weights(const Spline& spline, const Pace& pace) {
   std::vector<double> all;
   if (!spline.rational) return all;
-  for (Count i = 0; i < spline.point_count(); ++i) all.push_back(spline.point(i)[spline.dimension()]);
+  all.reserve(spline.point_count());
+  pace.for_each(spline.point_count(),
+                [&](Count i) { all.push_back(spline.points[i * spline.width + spline.width - 1]); });
   return all;
 }
 
-double extent(const Spline& spline) {
-  const std::vector<double> points = projected(spline);
-  const Index dimension = spline.dimension();
+double extent(const Spline& spline, const Pace& pace) {
+  const Index dimension = spline.dimension(), width = spline.width;
+  const auto coordinate = [&](Count i, Index k) {
+    const double* point = &spline.points[i * width];
+    return spline.rational ? point[k] / point[dimension] : point[k];
+  };
   double diagonal = 0;  // by hypot: squares overflow long before it does
   for (Index k = 0; k < dimension; ++k) {
-    double low = points[k], high = points[k];
-    for (Count i = k; i < points.size(); i += dimension) {
-      low = std::min(low, points[i]);
-      high = std::max(high, points[i]);
-    }
+    double low = coordinate(0, k), high = low;
+    pace.for_each(spline.point_count(), [&](Count i) {
+      const double x = coordinate(i, k);
+      low = std::min(low, x);
+      high = std::max(high, x);
+    });
     diagonal = std::hypot(diagonal, high - low);
   }
   return diagonal;
+}
+
+Spline copy_of(const Spline& spline, const Pace& pace) {
+  Spline copy{spline.degree, spline.width, spline.rational, spline.periodic, {}, {}};
+  pace.copy(spline.knots, copy.knots);
+  pace.copy(spline.points, copy.points);
+  return copy;
 }
 
 }  // namespace subdivd

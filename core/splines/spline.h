@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "core/base/budget.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 
 namespace subdivd {
@@ -36,11 +38,8 @@ struct Spline {
   // knots, weights). Degree 1 to kMaxDegree; at least degree + 1 points; finite numbers; knots ascending, a
   // domain that is not empty, no knot inside it more than `degree` times nor any more than degree + 1 times;
   // weights above 0.
-  Result<void> check() const;
+  Result<void> check(const Budget& budget = {}) const;
 };
-
-// What is wrong with these knots alone, for n points: wrong_length, not_finite, out_of_range at {"knots", i}.
-Result<void> check_knots(std::span<const double> knots, Index degree, Count points);
 
 // How often `t` stands among the knots.
 Index multiplicity(std::span<const double> knots, double t);
@@ -52,13 +51,19 @@ Count find_span(const Spline& spline, double t);
 // t itself, or of a periodic spline t modulo its period; out_of_range outside the domain, not_finite.
 Result<double> check_parameter(const Spline& spline, double t);
 
+// What goes through a whole curve takes a pace, and throws Stopped when that has no more to spend.
+
 // The stored point of coordinates `point` and weight w, and back.
 std::vector<double> homogeneous(std::span<const double> points, Index dimension,
-                                std::span<const double> weights);
-std::vector<double> projected(const Spline& spline);  // dimension() scalars per control point
-std::vector<double> weights(const Spline& spline);    // empty when it is not rational
+                                std::span<const double> weights, const Pace& pace = {});
+// dimension() scalars per control point
+std::vector<double> projected(const Spline& spline, const Pace& pace = {});
+// empty when it is not rational
+std::vector<double> weights(const Spline& spline, const Pace& pace = {});
 
 // Longest diagonal of the box around the control points: what tolerances are measured in.
-double extent(const Spline& spline);
+double extent(const Spline& spline, const Pace& pace = {});
+
+Spline copy_of(const Spline& spline, const Pace& pace);
 
 }  // namespace subdivd
