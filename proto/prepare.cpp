@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/pace.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/repair.h"
 #include "core/mesh/scan.h"
@@ -150,11 +151,6 @@ Result<void> drop_faces(RefineRequest& request, std::size_t i, json::FaceHistory
   history.kept = std::move(*kept);
   if (!history.kept.empty()) warn_of_dropped(request, i, history, faces);
   return {};
-}
-
-bool is_stop(const Error& error) {
-  return error.code == ErrorCode::cancelled || error.code == ErrorCode::deadline_exceeded ||
-         error.code == ErrorCode::overloaded;
 }
 
 Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceHistory& history,

@@ -116,9 +116,10 @@ class Pace {
   mutable Count spent_ = kBlock;  // the first call polls: a dead caller costs nothing
 };
 
-// Whether an error is no fault of the input: the work was stopped. It has no place in the input, then.
+// Whether an error is no fault of the input, and has no place in it: the work could not go on.
 inline bool is_stop(const Error& error) {
-  return error.code == ErrorCode::cancelled || error.code == ErrorCode::deadline_exceeded;
+  return error.code == ErrorCode::cancelled || error.code == ErrorCode::deadline_exceeded ||
+         error.code == ErrorCode::overloaded;
 }
 
 // f(pace), which returns a value or nothing; the error when it was stopped.

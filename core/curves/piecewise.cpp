@@ -270,22 +270,26 @@ Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace pl
 
 namespace {
 
-Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, Index level,
-                    const Pace& pace) {
-  const Count count = curves.points_of_curve(curve), parts = Count{1} << level;
-  const bool closed = curves.wrap == CurveWrap::periodic;
-  switch (curves.basis) {
-    case CurveBasis::bezier:
-      return 3 * (count / 3) * parts + 1;
-    case CurveBasis::hermite:
-      return 3 * (count / 2 - (closed ? 0 : 1)) * parts + 1;
-    case CurveBasis::catmull_rom:
-      return 3 * (closed ? count : count - (curves.wrap == CurveWrap::pinned ? 1 : 3)) * parts + 1;
-    default:
+SplineSize size_of_pieces(Count segments) { return {3, 3 * segments + 1, segments}; }
+
+// As spline_of_bspline() makes it.
+SplineSize size_of_uniform(CurveWrap wrap, Count points, Index degree) {
+  switch (wrap) {
+    case CurveWrap::nonperiodic:
+      return {degree, points, points - degree};
+    case CurveWrap::periodic:
+      return {degree, points + degree, points};
+    case CurveWrap::pinned:
       break;
   }
-  // On knots the knots tell, without a copy of the points.
-  const Count order = order_of(curves, curve);
+  const Count spans = points - (degree % 2 == 1 ? 1 : 2);
+  return {degree, spans + degree, spans};
+}
+
+// On knots the knots tell, without a copy of the points.
+SplineSize size_on_knots(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
+  const Count count = curves.points_of_curve(curve);
+  const Index order = order_of(curves, curve);
   const std::span<const double> knots = std::span(curves.knots).subspan(place.knots, count + order);
   double from = knots[order - 1], to = knots[count];
   const bool whole =
@@ -297,17 +301,41 @@ Count refined_count(const ControlCurves& curves, Count curve, CurvePlace place, 
     ++inside;
     breaks += knots[k] < knots[k + 1];
   });
-  return (whole ? count : inside + order) + (breaks + 1) * (parts - 1);
+  return {order - 1, whole ? count : inside + order, breaks + 1};
 }
 
 }  // namespace
 
+SplineSize spline_size(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
+  const Count count = curves.points_of_curve(curve);
+  const bool closed = curves.wrap == CurveWrap::periodic;
+  switch (curves.basis) {
+    case CurveBasis::bspline:
+      return size_of_uniform(curves.wrap, count, curves.degree);
+    case CurveBasis::four_point:
+    case CurveBasis::corner_cutting:
+      return size_of_uniform(curves.wrap, count, 2);
+    case CurveBasis::bezier:
+      return size_of_pieces(count / 3);
+    case CurveBasis::hermite:
+      return size_of_pieces(count / 2 - (closed ? 0 : 1));
+    case CurveBasis::catmull_rom:
+      return size_of_pieces(closed ? count : count - (curves.wrap == CurveWrap::pinned ? 1 : 3));
+    case CurveBasis::nurbs:
+      break;
+  }
+  return size_on_knots(curves, curve, place, pace);
+}
+
 Count refined_piecewise_count(const ControlCurves& curves, Index level, const Pace& pace) {
+  const Count parts = Count{1} << level;
   Count total = 0;
   CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
     pace.spend(1);
-    total += refined_count(curves, c, place, level, pace);
+    const SplineSize size = spline_size(curves, c, place, pace);
+    total += curves.basis == CurveBasis::nurbs ? size.points + size.spans * (parts - 1)
+                                               : 3 * size.spans * parts + 1;
   }
   return total;
 }

@@ -29,6 +29,15 @@ std::vector<CurvePlace> curve_places(const ControlCurves& curves, const Pace& pa
 Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place,
                          const Budget& budget = {});
 
+// What spline_of() makes of a curve is so large; without making it. Of four-point curves, and of corner
+// cutting, as if the ratio were 1/4. With a pace, throws Stopped.
+struct SplineSize {
+  Index degree = 3;
+  Count points = 0;
+  Count spans = 0;  // that are not empty
+};
+SplineSize spline_size(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace = {});
+
 // The part of check() for bases that are given by pieces or on knots. Places as the JSON names them: points
 // and curveVertexCounts, order, knots, ranges, pointWeights with the index in the whole array.
 Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget = {});

@@ -10,8 +10,13 @@
 namespace subdivd::server {
 
 // Bytes that the answer and its text will take at most: to be reserved before anything is computed. What is
-// needed to compute it, compute_...() take from their budget. too_large over `most`, the bytes of an answer.
-Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most);
+// needed to compute it, compute_...() take from their budget. too_large over `most`, the bytes of an answer,
+// and for more than kMostListedRemovals.
+Result<Count> predict_curve_task(const proto::CurveRequest& request, Count most, const Budget& budget = {});
+
+// Of many curves, every listed knot is looked for in each: curves times knots, some microseconds each. (Of
+// one curve there may be as many as the body holds.)
+inline constexpr Count kMostListedRemovals = Count{1} << 23;
 
 // The curves, or the surfaces, at the parameters of the request. Curves without a formula have a point and a
 // tangent, the others everything.

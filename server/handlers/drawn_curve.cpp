@@ -4,8 +4,8 @@
 
 namespace subdivd::server {
 
-Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place) {
-  auto spline = spline_of(curves, curve, place);
+Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place, const Budget& budget) {
+  auto spline = spline_of(curves, curve, place, budget);
   if (spline) return DrawnCurve(*std::move(spline));
   if (spline.error().code != ErrorCode::unsupported) return std::move(spline).error();
   auto subdivided = subdivided_curve(curves, curve, place);

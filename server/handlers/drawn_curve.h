@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/curves/local_subdivision.h"
 #include "core/curves/piecewise.h"
@@ -13,6 +14,6 @@ namespace subdivd::server {
 using DrawnCurve = std::variant<Spline, SubdividedCurve>;
 
 // As spline_of(); `curves` must outlive it.
-Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place);
+Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place, const Budget& budget);
 
 }  // namespace subdivd::server

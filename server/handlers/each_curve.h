@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/curves/piecewise.h"
 #include "core/splines/arc_length.h"
@@ -40,15 +41,17 @@ inline Count spline_bytes(const ControlCurves& curves, Count curve) {
          (by_pieces ? points * (kPiece + 4 * width * sizeof(double)) : 0);
 }
 
-// An error about something beside the curves: its place is a member of the body.
+// An error about something beside the curves: its place is a member of the body. What was stopped has none.
 inline Error at_member(Error error, const char* member, std::optional<std::uint64_t> index = {}) {
+  if (is_stop(error)) return error;
   error.where = {member};
   if (index) error.where.emplace_back(*index);
   return error;
 }
 
-// Calls work(curve, set, ordinal) for what make(curves, ordinal, place) makes of every curve, in the order of
-// the body; what cannot be made is blamed on its set of curves. `memory` gives the budget for one curve.
+// Calls work(curve, set, ordinal) for what make(curves, ordinal, place, budget) makes of every curve, in the
+// order of the body; what cannot be made is blamed on its set of curves. `memory` gives the budget for one
+// curve.
 template <class Make, class Work>
 Result<void> for_each_curve(const proto::CurveRequest& request, ReusedMemory& memory, Make&& make,
                             Work&& work) {
@@ -59,7 +62,7 @@ Result<void> for_each_curve(const proto::CurveRequest& request, ReusedMemory& me
       if (auto stop = memory.budget().poll()) return *stop;
       memory.free_to(0);
       if (auto taken = memory.budget().take_memory(spline_bytes(curves, c)); !taken) return taken;
-      auto curve = make(curves, c, place);
+      auto curve = make(curves, c, place, memory.budget());
       if (!curve) return proto::blame_input(request.curves, std::move(curve).error(), "curves", i);
       if (auto done = work(*std::move(curve), i, c); !done) return done;
     }

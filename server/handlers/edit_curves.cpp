@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "core/base/pace.h"
 #include "core/curves/bases.h"
 #include "core/curves/piecewise.h"
 #include "core/splines/degree.h"
@@ -22,13 +25,18 @@ using proto::EditedCurves;
 
 Result<Approximation> inserted(const Spline& spline, const CurveTask& task, const Budget& budget) {
   // In the caller's order they may fall; sorted ones are inserted, and a fault is told by its own place.
-  std::vector<double> knots = task.insert;
-  std::ranges::sort(knots);
-  auto refined = refine_knots(spline, knots, budget);
+  const auto knots = stoppable(budget, [&](const Pace& pace) {
+    std::vector<double> sorted;
+    pace.copy(task.insert, sorted);
+    pace.sort(sorted.begin(), sorted.end(), std::less<>());
+    return sorted;
+  });
+  if (!knots) return knots.error();
+  auto refined = refine_knots(spline, *knots, budget);
   if (refined) return Approximation{*std::move(refined), 0};
   Error error = std::move(refined).error();
   if (error.where.empty()) return error;
-  const double bad = knots[std::get<std::uint64_t>(error.where[0])];
+  const double bad = (*knots)[std::get<std::uint64_t>(error.where[0])];
   const auto place = std::ranges::find_if(task.insert, [&](double t) { return t == bad || t != t; });
   return at_member(std::move(error), "insert", static_cast<std::uint64_t>(place - task.insert.begin()));
 }
@@ -36,64 +44,66 @@ Result<Approximation> inserted(const Spline& spline, const CurveTask& task, cons
 Result<Approximation> thinned(const Spline& spline, const CurveTask& task, const Budget& budget,
                               Count& removed) {
   const double tolerance = task.tolerance.value_or(0);
-  if (!task.remove) {
-    auto thinning = remove_knots(spline, tolerance, budget);
-    if (!thinning) return std::move(thinning).error();
-    removed = thinning->removed;
-    return std::move(thinning->result);
+  auto thinning = task.remove ? remove_knots(spline, *task.remove, tolerance, budget)
+                              : remove_knots(spline, tolerance, budget);
+  if (!thinning) {
+    Error error = std::move(thinning).error();
+    const bool listed = !error.where.empty() && std::holds_alternative<std::uint64_t>(error.where[0]);
+    if (!listed) return error;
+    const auto place = std::get<std::uint64_t>(error.where[0]);
+    return at_member(std::move(error), "remove", place);
   }
-  Approximation result{spline, 0};
-  for (std::size_t k = 0; k < task.remove->size(); ++k) {
-    if (auto stop = budget.poll()) return *stop;
-    // A knot that an earlier removal of the same has taken is no fault.
-    const double t = (*task.remove)[k];
-    if (removed > 0 && multiplicity(spline.knots, t) > 0 && multiplicity(result.spline.knots, t) == 0)
-      continue;
-    auto removal = remove_knot(result.spline, t, 1, tolerance - result.bound);
-    if (!removal) {
-      Error error = std::move(removal).error();
-      return error.where.empty() ? at_member(std::move(error), "remove", k) : error;
-    }
-    removed += removal->times;
-    result.bound += removal->result.bound;
-    result.spline = std::move(removal->result.spline);
-  }
-  return result;
+  removed = thinning->removed;
+  return std::move(thinning->result);
 }
 
-Result<Approximation> redrawn(const Spline& spline, const CurveTask& task, const Budget& budget) {
-  Approximation result{spline, 0};
+// Down to `degree`, one after the other; what that takes is free again.
+Result<void> reduce(Approximation& curve, Index degree, double allowed, ReusedMemory& memory) {
+  const Count before = memory.used();
+  while (curve.spline.degree > degree) {
+    auto reduced = reduce_degree(curve.spline, memory.budget());
+    if (!reduced) return at_member(std::move(reduced).error(), "toDegree");
+    memory.free_to(before);
+    curve.bound += reduced->bound;
+    curve.spline = std::move(reduced->spline);
+    if (curve.bound <= allowed) continue;
+    return Error{ErrorCode::out_of_range,
+                 "at degree " + std::to_string(curve.spline.degree) + " the curve may be " +
+                     std::to_string(curve.bound) + " away; the tolerance is " + std::to_string(allowed),
+                 {"toDegree"},
+                 0,
+                 0};
+  }
+  return {};
+}
+
+// `tolerance`: what the task says, or rounding alone.
+Result<Approximation> redrawn(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory) {
+  const Budget& budget = memory.budget();
+  Approximation result{std::move(spline), 0};
   const auto put = [&](Result<Spline> next, const char* member) -> Result<void> {
     if (!next) return at_member(std::move(next).error(), member);
     result.spline = *std::move(next);
     return {};
   };
   if (task.range)
-    if (auto done = put(part(result.spline, (*task.range)[0], (*task.range)[1]), "range"); !done)
+    if (auto done = put(part(result.spline, (*task.range)[0], (*task.range)[1], budget), "range"); !done)
       return std::move(done).error();
   if (task.to_degree && *task.to_degree > result.spline.degree)
     if (auto done =
             put(elevate_degree(result.spline, *task.to_degree - result.spline.degree, budget), "toDegree");
         !done)
       return std::move(done).error();
-  while (task.to_degree && *task.to_degree < result.spline.degree) {
-    auto reduced = reduce_degree(result.spline, budget);
-    if (!reduced) return at_member(std::move(reduced).error(), "toDegree");
-    result.bound += reduced->bound;
-    result.spline = std::move(reduced->spline);
-    // Rounding alone, where no tolerance is given.
-    const double allowed = task.tolerance.value_or(1e-10 * extent(spline));
-    if (!(result.bound <= allowed))
-      return Error{ErrorCode::out_of_range,
-                   "at degree " + std::to_string(result.spline.degree) + " the curve may be " +
-                       std::to_string(result.bound) + " away; the tolerance is " + std::to_string(allowed),
-                   {"toDegree"},
-                   0,
-                   0};
+  if (task.to_degree)
+    if (auto done = reduce(result, *task.to_degree, tolerance, memory); !done) return std::move(done).error();
+  if (task.reversed) {
+    auto back = stoppable(budget, [&](const Pace& pace) { return reversed(result.spline, pace); });
+    if (auto done = put(std::move(back), "reversed"); !done) return std::move(done).error();
   }
-  if (task.reversed) result.spline = reversed(result.spline);
   if (task.domain && !task.join)
-    if (auto done = put(reparametrized(result.spline, (*task.domain)[0], (*task.domain)[1]), "domain"); !done)
+    if (auto done =
+            put(reparametrized(result.spline, (*task.domain)[0], (*task.domain)[1], budget), "domain");
+        !done)
       return std::move(done).error();
   return result;
 }
@@ -113,7 +123,7 @@ Result<std::vector<double>> points_in(CurveForm form, const Spline& spline, doub
     case CurveForm::nurbs:
       break;
   }
-  return projected(spline);
+  return stoppable(budget, [&](const Pace& pace) { return projected(spline, pace); });
 }
 
 CurveBasis basis_of(CurveForm form) {
@@ -132,26 +142,26 @@ CurveBasis basis_of(CurveForm form) {
   return CurveBasis::nurbs;
 }
 
-Result<Approximation> edited(const Spline& spline, const CurveTask& task, const Budget& budget,
+Result<Approximation> edited(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory,
                              Count& removed) {
   switch (task.kind) {
     case CurveTaskKind::insert_knot:
-      return inserted(spline, task, budget);
+      return inserted(spline, task, memory.budget());
     case CurveTaskKind::remove_knot:
-      return thinned(spline, task, budget, removed);
+      return thinned(spline, task, memory.budget(), removed);
     default:
-      return redrawn(spline, task, budget);
+      return redrawn(std::move(spline), task, tolerance, memory);
   }
 }
 
-void append(const Spline& spline, std::vector<double> points, RefinedCurves<double>& curves) {
+void append(const Spline& spline, const std::vector<double>& points, RefinedCurves<double>& curves,
+            const Pace& pace) {
   curves.vertex_counts.push_back(static_cast<Index>(points.size() / curves.width));
-  curves.points.insert(curves.points.end(), points.begin(), points.end());
+  pace.append(points, curves.points);
   if (curves.basis != CurveBasis::nurbs) return;
   curves.orders.push_back(spline.degree + 1);
-  curves.knots.insert(curves.knots.end(), spline.knots.begin(), spline.knots.end());
-  const std::vector<double> own = weights(spline);
-  curves.weights.insert(curves.weights.end(), own.begin(), own.end());
+  pace.append(spline.knots, curves.knots);
+  pace.append(weights(spline, pace), curves.weights);
 }
 
 // Finds a place in the answer for the edited curves: each in its set, or all joined into one.
@@ -195,7 +205,7 @@ class Collector {
     if (!joined_) return std::move(all_);
     all_.answer.curves.resize(1);
     if (task_.domain) {
-      auto moved = reparametrized(joined_->spline, (*task_.domain)[0], (*task_.domain)[1]);
+      auto moved = reparametrized(joined_->spline, (*task_.domain)[0], (*task_.domain)[1], budget_);
       if (!moved) return at_member(std::move(moved).error(), "domain");
       joined_->spline = *std::move(moved);
     }
@@ -207,7 +217,9 @@ class Collector {
   Result<void> write(const Approximation& curve, Count removed, double tolerance, std::size_t set) {
     auto points = points_in(form_, curve.spline, tolerance, budget_);
     if (!points) return at_member(std::move(points).error(), "to");
-    append(curve.spline, *std::move(points), all_.answer.curves[set]);
+    const auto done = stoppable(
+        budget_, [&](const Pace& pace) { append(curve.spline, *points, all_.answer.curves[set], pace); });
+    if (!done) return done;
     all_.removed.push_back(removed);
     all_.error_bounds.push_back(curve.bound);
     return {};
@@ -228,14 +240,16 @@ Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& w
   ReusedMemory memory(whole);
   const Budget& budget = memory.budget();
   Collector collector(request, budget);
-  const auto on_knots = [](const ControlCurves& curves, Count curve, CurvePlace place) {
-    return spline_of(curves, curve, place);
+  const auto on_knots = [](const ControlCurves& curves, Count curve, CurvePlace place, const Budget& one) {
+    return spline_of(curves, curve, place, one);
   };
-  const auto edit = [&](const Spline& spline, std::size_t set, Count) -> Result<void> {
+  const auto edit = [&](Spline spline, std::size_t set, Count) -> Result<void> {
+    const auto size = stoppable(budget, [&](const Pace& pace) { return extent(spline, pace); });
+    if (!size) return size.error();
+    const double tolerance = request.task.tolerance.value_or(1e-10 * *size);
     Count removed = 0;
-    auto changed = edited(spline, request.task, budget, removed);
+    auto changed = edited(std::move(spline), request.task, tolerance, memory, removed);
     if (!changed) return std::move(changed).error();
-    const double tolerance = request.task.tolerance.value_or(1e-10 * extent(spline));
     return collector.add(*std::move(changed), removed, tolerance, set);
   };
   if (auto done = for_each_curve(request, memory, on_knots, edit); !done) return std::move(done).error();

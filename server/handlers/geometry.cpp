@@ -226,7 +226,7 @@ Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
     Phases phases;
     const auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
     if (!decoded) return decoded.error();
-    const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes);
+    const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes, budget);
     if (!bytes) return bytes.error();
     if (auto taken = budget.take_memory(*bytes); !taken) return std::move(taken).error();
     phases.end("read");

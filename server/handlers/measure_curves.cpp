@@ -111,6 +111,9 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
 
 Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, const Budget& budget) {
   std::vector<CurveMeasure> all;
+  Count count = 0;
+  for (const ControlCurves& curves : request.curves.curves) count += curves.curve_count();
+  all.reserve(count);  // they would be moved as often as the vector grew
   ReusedMemory memory(budget);
   Count first = 0;  // of the points of the present curve
   const auto measure = [&](const DrawnCurve& curve, std::size_t set, Count ordinal) -> Result<void> {

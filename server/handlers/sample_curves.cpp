@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/base/pace.h"
 #include "core/splines/bspline.h"
 #include "core/splines/differential.h"
 #include "core/splines/growing_memory.h"
@@ -22,8 +23,6 @@ using proto::CurveRequest;
 using proto::CurveSamples;
 using proto::CurveTask;
 
-constexpr std::size_t kSamplesPerPoll = 256;
-
 struct Located {
   std::size_t set;
   Count curve;
@@ -36,14 +35,23 @@ Count curve_count(const CurveRequest& request) {
   return count;
 }
 
-std::vector<Located> all_curves(const CurveRequest& request) {
+std::vector<Located> all_curves(const CurveRequest& request, const Pace& pace) {
   std::vector<Located> all;
   all.reserve(curve_count(request));
   for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
-    const std::vector<CurvePlace> places = curve_places(request.curves.curves[i]);
-    for (Count c = 0; c < places.size(); ++c) all.push_back({i, c, places[c]});
+    const std::vector<CurvePlace> places = curve_places(request.curves.curves[i], pace);
+    pace.for_each(places.size(), [&](Count c) { all.push_back({i, c, places[c]}); });
   }
   return all;
+}
+
+// Elementary steps to work out one sample: the basis, and what is summed up over it.
+Count steps_of_sample(const DrawnCurve& curve, const CurveTask& task) {
+  const Spline* spline = std::get_if<Spline>(&curve);
+  const Count rows = (task.frames ? 4 : 1) + Count{task.derivatives};
+  if (spline == nullptr) return 256 + 8 * rows * std::get<SubdividedCurve>(curve).dimension();
+  const Count order = spline->degree + Count{1};
+  return 64 + order * rows * (order + spline->width);
 }
 
 // What a curve keeps beside itself.
@@ -126,16 +134,13 @@ Error at_sample(Error error, const CurveTask& task, std::size_t sample) {
   return error;
 }
 
-}  // namespace
-
-Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& whole) {
-  const CurveTask& task = request.task;
-  ReusedMemory memory(whole);
-  const Budget& budget = memory.budget();
-  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<DrawnCurve>);
-  if (auto taken = budget.take_memory(curve_count(request) * kOfCurve); !taken) return taken.error();
-  const std::vector<Located> all = all_curves(request);
-  CurveSamples samples{task.sample_curves, task.sample_ts, task.derivatives, {}, {}, task.frames, {}, {}, {}};
+// What every sample has, before any is known.
+CurveSamples empty_samples(const CurveTask& task, const Pace& pace) {
+  CurveSamples samples;
+  pace.copy(task.sample_curves, samples.curves);
+  pace.copy(task.sample_ts, samples.ts);
+  samples.order = task.derivatives;
+  samples.framed = task.frames;
   samples.widths.reserve(task.sample_ts.size());
   samples.rows.reserve(task.sample_ts.size());
   if (task.frames) {
@@ -143,31 +148,69 @@ Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& 
     samples.curvatures.reserve(task.sample_ts.size());
     samples.torsions.reserve(task.sample_ts.size());
   }
+  return samples;
+}
+
+// Curves are made when they are asked for, and kept.
+class CurveShelf {
+ public:
+  CurveShelf(const CurveRequest& request, ReusedMemory& memory, const Pace& pace)
+      : request_(request), memory_(memory), places_(all_curves(request, pace)) {
+    pace.fill(curves_, places_.size(), std::nullopt);
+  }
+
+  std::size_t size() const { return places_.size(); }
+  std::size_t set_of(Index number) const { return places_[number].set; }
+
+  Result<const DrawnCurve*> curve(Index number) {
+    std::optional<DrawnCurve>& curve = curves_[number];
+    if (curve) return &*curve;
+    const Budget& budget = memory_.budget();
+    const auto& [set, ordinal, place] = places_[number];
+    const Count kept = memory_.used(), bytes = spline_bytes(request_.curves.curves[set], ordinal);
+    if (auto taken = budget.take_memory(bytes); !taken) return std::move(taken).error();
+    auto made = drawn(request_.curves.curves[set], ordinal, place, budget);
+    if (!made) return proto::blame_input(request_.curves, std::move(made).error(), "curves", set);
+    curve = *std::move(made);
+    memory_.free_to(kept);
+    if (auto taken = budget.take_memory(held_bytes(*curve)); !taken) return std::move(taken).error();
+    return &*curve;
+  }
+
+ private:
+  const CurveRequest& request_;
+  ReusedMemory& memory_;
+  std::vector<Located> places_;
+  std::vector<std::optional<DrawnCurve>> curves_;
+};
+
+Result<CurveSamples> sampled(const CurveRequest& request, ReusedMemory& memory, const Pace& pace) {
+  const CurveTask& task = request.task;
+  CurveShelf shelf(request, memory, pace);
+  CurveSamples samples = empty_samples(task, pace);
   Sampler sampler(task, samples);
-  std::vector<std::optional<DrawnCurve>> curves(all.size());  // of those that have been asked for
   for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
-    if (k % kSamplesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
     const Index number = task.sample_curves[k];
-    if (number >= all.size()) return no_such("curve", "curves", k, number, all.size());
-    std::optional<DrawnCurve>& curve = curves[number];
-    if (!curve) {
-      const auto& [set, ordinal, place] = all[number];
-      const Count kept = memory.used(), bytes = spline_bytes(request.curves.curves[set], ordinal);
-      if (auto taken = budget.take_memory(bytes); !taken) return taken.error();
-      auto made = drawn(request.curves.curves[set], ordinal, place);
-      if (!made) return proto::blame_input(request.curves, std::move(made).error(), "curves", set);
-      curve = *std::move(made);
-      memory.free_to(kept);
-      if (auto taken = budget.take_memory(held_bytes(*curve)); !taken) return taken.error();
-    }
+    if (number >= shelf.size()) return no_such("curve", "curves", k, number, shelf.size());
+    const auto curve = shelf.curve(number);
+    if (!curve) return curve.error();
+    pace.spend(steps_of_sample(**curve, task));
     const auto done =
-        std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, *curve);
+        std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, **curve);
     if (!done && done.error().where == Path{"points"})  // too large, at whatever parameter
-      return proto::blame_input(request.curves, done.error(), "curves", all[number].set);
+      return proto::blame_input(request.curves, done.error(), "curves", shelf.set_of(number));
     if (!done) return at_sample(done.error(), task, k);
   }
   return samples;
+}
+
+}  // namespace
+
+Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
+  ReusedMemory memory(budget);
+  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<DrawnCurve>);
+  if (auto taken = memory.budget().take_memory(curve_count(request) * kOfCurve); !taken) return taken.error();
+  return stoppable(memory.budget(), [&](const Pace& pace) { return sampled(request, memory, pace); });
 }
 
 Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& request, const Budget& budget) {
@@ -175,9 +218,9 @@ Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& reques
   const std::vector<ControlPatch>& surfaces = request.curves.surfaces;
   proto::SurfaceSamples samples;
   samples.samples.reserve(task.sample_us.size());
+  BudgetPoller poller(budget);
   for (std::size_t k = 0; k < task.sample_us.size(); ++k) {
-    if (k % kSamplesPerPoll == 0)
-      if (auto stop = budget.poll()) return *stop;
+    if (auto stop = poller.spend(64)) return *stop;
     const Index number = task.sample_surfaces[k];
     if (number >= surfaces.size()) return no_such("surface", "surfaces", k, number, surfaces.size());
     auto sample = evaluate<double>(surfaces[number], task.sample_us[k], task.sample_vs[k]);
