@@ -28,17 +28,16 @@ inline Count degree_of(const ControlCurves& curves, Count curve) {
 }
 
 // Bytes while a curve is made into a spline, and while that is brought into coordinates of its own: copies of
-// its points and knots, which grow, and of curves by pieces the pieces. Curves that are closed or start at
-// their first point get up to a degree more of points.
+// its points and knots, which grow. Curves that are closed or start at their first point get up to a degree
+// more of points.
 inline Count spline_bytes(const ControlCurves& curves, Count curve) {
-  constexpr Count kCopies = 10, kPiece = 256;
+  constexpr Count kCopies = 10;
   const Count degree = degree_of(curves, curve), width = curves.width;
   const Count points = curves.points_of_curve(curve) + 2 * (degree + 1);
   const bool by_pieces = curves.basis == CurveBasis::bezier || curves.basis == CurveBasis::catmull_rom ||
                          curves.basis == CurveBasis::hermite;
   const Count numbers = points * (width + 2) * (by_pieces ? 3 : 1);
-  return numbers * kCopies * sizeof(double) +
-         (by_pieces ? points * (kPiece + 4 * width * sizeof(double)) : 0);
+  return numbers * kCopies * sizeof(double);
 }
 
 // An error about something beside the curves: its place is a member of the body. What was stopped has none.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/splines/bezier.h"
 #include "core/splines/bspline.h"
 #include "tests/core/splines/sample_splines.h"
 
@@ -67,6 +68,30 @@ std::vector<ControlCurves> all_piecewise() {
     all.push_back(curves_of(CurveBasis::catmull_rom, wrap, 7));
   }
   return all;
+}
+
+TEST(Piecewise, sizes_are_known_without_the_spline) {
+  std::vector<ControlCurves> all = all_piecewise();
+  all.front().ranges = {0.5, 3, 0, 2};
+  all.push_back(nurbs());
+  for (const CurveWrap wrap : {CurveWrap::nonperiodic, CurveWrap::periodic, CurveWrap::pinned}) {
+    all.push_back(curves_of(CurveBasis::corner_cutting, wrap, 9));
+    for (const Index degree : {1u, 2u, 3u, 4u, 9u}) {
+      all.push_back(curves_of(CurveBasis::bspline, wrap, 12));
+      all.back().degree = degree;
+    }
+  }
+  for (const ControlCurves& curves : all) {
+    ASSERT_TRUE(curves.check()) << curves.check().error().message;
+    const std::vector<CurvePlace> places = curve_places(curves);
+    for (Count c = 0; c < places.size(); ++c) {
+      const SplineSize size = spline_size(curves, c, places[c]);
+      const Spline spline = whole(curves, c);
+      EXPECT_EQ(size.degree, spline.degree);
+      EXPECT_EQ(size.points, spline.point_count());
+      EXPECT_EQ(size.spans, bezier_pieces(spline).size());
+    }
+  }
 }
 
 TEST(Piecewise, refining_keeps_the_curve_and_counts_as_predicted) {

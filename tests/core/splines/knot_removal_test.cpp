@@ -111,6 +111,46 @@ TEST(KnotRemoval, of_many_takes_time_by_their_number) {
   EXPECT_EQ(thinned->result.spline.point_count(), 4);
 }
 
+// As if every knot were removed from what the one before it has left, to the bit.
+TEST(KnotRemoval, of_a_list_is_that_of_its_knots_one_by_one) {
+  Count removed = 0;
+  for (const auto& [name, spline] : samples::all_splines())
+    for (const double tolerance : {0.0, 0.05, 1.0, 100.0}) {
+      std::vector<double> listed;
+      for (const double t : spline.knots)
+        if (t > spline.begin() && t < spline.end()) listed.push_back(t);
+      shapes::Random random(7);
+      for (std::size_t k = listed.size(); k > 1; --k) std::swap(listed[k - 1], listed[random.below(k)]);
+      listed.push_back(listed.front());  // it may be gone by then, or not
+      Approximation expected{spline, 0};
+      Count times = 0;
+      for (const double t : listed) {
+        if (multiplicity(expected.spline.knots, t) == 0) continue;
+        const auto removal = remove_knot(expected.spline, t, 1, tolerance - expected.bound);
+        ASSERT_TRUE(removal) << name;
+        expected.spline = removal->result.spline;
+        expected.bound += removal->result.bound;
+        times += removal->times;
+      }
+      const auto thinned = remove_knots(spline, listed, tolerance, {});
+      ASSERT_TRUE(thinned) << name;
+      EXPECT_EQ(thinned->removed, times) << name;
+      EXPECT_EQ(thinned->result.bound, expected.bound) << name;
+      EXPECT_EQ(thinned->result.spline.knots, expected.spline.knots) << name;
+      EXPECT_EQ(thinned->result.spline.points, expected.spline.points) << name;
+      removed += times;
+    }
+  EXPECT_GT(removed, 300u);
+}
+
+TEST(KnotRemoval, of_a_list_says_which_of_them_is_no_knot) {
+  const std::vector<double> listed{1, 2, 2.5};
+  const auto refused = remove_knots(samples::circle(), listed, 0, {});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(refused.error().where, Path{std::uint64_t{2}});
+}
+
 TEST(KnotRemoval, stops_when_nobody_waits) {
   const std::atomic<bool> gone = true;
   Budget budget;
