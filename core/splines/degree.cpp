@@ -76,9 +76,10 @@ class Elevation {
       pace_.spend(2 * Count{p} + (end - begin) * Count{p} / 2);
       point.begin = std::min(point.begin, begin), point.end = std::max(point.end, end);
       // It does not matter which of several equal knots is left out.
+      for (Index j = begin; j < end; ++j) blossom_[j] /= p + 1;
       Index next = without;
       for (; next <= p && all[next] == all[without]; ++next)
-        for (Index j = begin; j < end; ++j) point.weights[j] += blossom_[j] / (p + 1);
+        for (Index j = begin; j < end; ++j) point.weights[j] += blossom_[j];
       without = next;
     }
   }

@@ -67,10 +67,10 @@ TEST(LongSplines, stop_while_their_degree_changes) {
 
 TEST(LongSplines, stop_while_they_are_measured) {
   const Spline spline = wave(1, 2, 300'000);
-  const std::vector<double> origin{0, 0};
+  const std::vector<double> far{100, 100};
   expect_stops_midway([&](const Budget& budget) { return localized(spline, budget); });
   expect_stops_midway([&](const Budget& budget) { return bounds(spline, budget); });
-  expect_stops_midway([&](const Budget& budget) { return closest_point(spline, origin, budget); });
+  expect_stops_midway([&](const Budget& budget) { return closest_point(spline, far, budget); });
   expect_stops_midway([&](const Budget& budget) {
     return flatten(spline, {.tolerance = 0.1, .max_points = 1'000'000}, budget);
   });
@@ -82,19 +82,20 @@ TEST(LongSplines, stop_while_they_are_measured) {
 // Every removal once made the whole curve anew: 100,000 of them took minutes.
 TEST(LongSplines, lose_many_listed_knots_in_linear_time) {
   constexpr Count kPoints = 100'000;
-  const Spline spline = wave(3, 2, kPoints);
+  Spline spline = wave(3, 1, kPoints);
+  for (Count i = 0; i < kPoints; ++i) spline.points[i] = static_cast<double>(i);  // a straight line
   std::vector<double> listed;
-  for (Count k = kPoints - 1; k > 3; --k) listed.push_back(static_cast<double>(k));  // the last ones first
-  const auto thinned = remove_knots(spline, listed, 1e6, within(kLinear));
+  for (Count k = kPoints - 1; k > 3; k -= 2) listed.push_back(static_cast<double>(k));  // last ones first
+  const auto thinned = remove_knots(spline, listed, 1, within(kLinear));
   ASSERT_TRUE(thinned.ok()) << thinned.error().message;
-  EXPECT_GT(thinned->removed, kPoints / 2);
+  EXPECT_EQ(thinned->removed, listed.size());
 }
 
-// By one degree after the other with all of a matrix, 2,000 points took more than five minutes.
+// With every knot left out in turn, equal ones too, and all weights, 500 points took more than a minute.
 TEST(LongSplines, are_lifted_to_the_highest_degree_in_time) {
-  const auto lifted = elevate_degree(wave(3, 1, 2000), kMaxDegree - 3, within(kLinear));
+  const auto lifted = elevate_degree(wave(3, 1, 500), kMaxDegree - 3, within(kLinear));
   ASSERT_TRUE(lifted.ok()) << lifted.error().message;
-  EXPECT_EQ(lifted->point_count(), 2000 + 60 * 1997);
+  EXPECT_EQ(lifted->point_count(), 500 + 60 * 497);
 }
 
 }  // namespace
