@@ -8,6 +8,7 @@
 
 #include "core/base/pace.h"
 #include "core/splines/knot_insertion.h"
+#include "core/splines/linked_knots.h"
 #include "core/splines/passage.h"
 
 namespace subdivd {
@@ -162,115 +163,6 @@ Error no_such_knot(const Spline& spline, double t) {
                0};
 }
 
-// A spline whose knots go in any order: they and their points are linked to their neighbours, so that what
-// goes leaves the others where they are.
-class LinkedKnots {
- public:
-  LinkedKnots(const Spline& spline, const Pace& pace) : pace_(pace), spline_(copy_of(spline, pace)) {
-    const Count knots = spline.knots.size();
-    before_.reserve(knots);
-    behind_.reserve(knots);
-    pace.for_each(knots, [&](Count i) {
-      before_.push_back(i == 0 ? kNone : static_cast<Index>(i - 1));
-      behind_.push_back(i + 1 == knots ? kNone : static_cast<Index>(i + 1));
-    });
-    gone_.reserve(knots);
-    pace.fill(gone_, knots, 0);
-  }
-
-  // As often as there was, and is, a knot t inside the domain. Nothing: there never was one.
-  std::optional<Index> times(double t) const {
-    if (!(t > spline_.begin() && t < spline_.end())) return {};
-    const auto [first, last] = equal(t);
-    if (first == last) return {};
-    return static_cast<Index>(std::count(gone_.begin() + first, gone_.begin() + last, 0));
-  }
-
-  // Removes the last of the knots t, of which there is one, unless it costs more than `tolerance`: what it
-  // costs, or nothing.
-  std::optional<double> remove(double t, double tolerance) {
-    const auto [first, last] = equal(t);
-    auto knot = static_cast<Index>(last - 1);
-    while (gone_[knot] != 0) --knot;
-    gather_near(knot);
-    const Count points = near_.knots.size() - spline_.degree - 1;
-    const Index width = spline_.width;
-    near_.points.clear();
-    for (Count i = 0; i < points; ++i) {
-      const auto point = spline_.point(numbers_[i]);
-      near_.points.insert(near_.points.end(), point.begin(), point.end());
-    }
-    pace_.spend(kStepsOfRemoval * points * width);
-    const auto next = removed_once(near_, t);
-    if (!next || !(next->bound <= tolerance)) return {};
-    unlink(knot);
-    // Its point goes with it; the others near it take what is left.
-    for (Count i = 0, from = 0; i < points; ++i) {
-      if (numbers_[i] == knot) continue;
-      std::copy_n(next->spline.points.begin() + static_cast<std::ptrdiff_t>(from++ * width), width,
-                  spline_.points.begin() + static_cast<std::ptrdiff_t>(Count{numbers_[i]} * width));
-    }
-    return next->bound;
-  }
-
-  // What is left, moved together.
-  Spline finish() {
-    const Count points = spline_.point_count(), width = spline_.width;
-    Count kept = 0, kept_points = 0;
-    pace_.for_each(spline_.knots.size(), [&](Count i) {
-      if (gone_[i] != 0) return;
-      spline_.knots[kept++] = spline_.knots[i];
-      if (i >= points) return;
-      if (kept_points != i)
-        std::copy_n(spline_.points.begin() + static_cast<std::ptrdiff_t>(i * width), width,
-                    spline_.points.begin() + static_cast<std::ptrdiff_t>(kept_points * width));
-      ++kept_points;
-    });
-    spline_.knots.resize(kept);
-    spline_.points.resize(kept_points * width);
-    return std::move(spline_);
-  }
-
- private:
-  static constexpr Index kNone = ~Index{0};
-
-  std::pair<std::ptrdiff_t, std::ptrdiff_t> equal(double t) const {
-    const auto [first, last] = std::equal_range(spline_.knots.begin(), spline_.knots.end(), t);
-    return {first - spline_.knots.begin(), last - spline_.knots.begin()};
-  }
-
-  // The knots that a removal can feel, 2 p on either side, and their numbers.
-  void gather_near(Index knot) {
-    const Index reach = 2 * spline_.degree;
-    Index begin = knot;
-    for (Index k = 0; k < reach && before_[begin] != kNone; ++k) begin = before_[begin];
-    numbers_.clear();
-    Index behind = 0;
-    for (Index i = begin; i != kNone && behind <= reach; i = behind_[i]) {
-      numbers_.push_back(i);
-      if (i == knot || behind > 0) ++behind;
-    }
-    near_.degree = spline_.degree;
-    near_.width = spline_.width;
-    near_.rational = spline_.rational;
-    near_.knots.clear();
-    for (const Index i : numbers_) near_.knots.push_back(spline_.knots[i]);
-  }
-
-  void unlink(Index knot) {
-    gone_[knot] = 1;
-    behind_[before_[knot]] = behind_[knot];
-    before_[behind_[knot]] = before_[knot];
-  }
-
-  const Pace& pace_;
-  Spline spline_;
-  std::vector<Index> before_, behind_;
-  std::vector<unsigned char> gone_;
-  Spline near_;
-  std::vector<Index> numbers_;
-};
-
 }  // namespace
 
 Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance,
@@ -302,10 +194,13 @@ Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knot
         return error;
       }
       if (*there == 0) continue;  // no fault: earlier removals have taken it
-      const auto bound = linked.remove(knots[k], tolerance - thinning.result.bound);
-      if (!bound) continue;
+      const Spline& near = linked.around(knots[k]);
+      pace.spend(kStepsOfRemoval * near.points.size());
+      const auto next = removed_once(near, knots[k]);
+      if (!next || !(next->bound <= tolerance - thinning.result.bound)) continue;
+      linked.remove(next->spline);
       ++thinning.removed;
-      thinning.result.bound += *bound;
+      thinning.result.bound += next->bound;
     }
     thinning.result.spline = linked.finish();
     return thinning;
