@@ -7,6 +7,7 @@
 
 #include "core/base/index.h"
 #include "proto/client_text.h"
+#include "proto/json/marks.h"
 #include "proto/json/number.h"
 
 namespace subdivd::proto::json {
@@ -184,7 +185,7 @@ bool Cursor::open_object(std::string_view right) {
   return !failed();
 }
 
-bool Cursor::Elements::next() {
+bool Cursor::Elements::next_anyhow() {
   Cursor& c = cursor_;
   if (c.failed()) return false;
   c.skip_space();
@@ -231,33 +232,44 @@ Cursor::Ahead Cursor::look_ahead() {
   bool quoted = false;
   while (p < end_) {
     const char* const stop = p + std::min(kBytesPerPoll, end_ - p);
-    for (; p < stop; ++p) {
-      const char c = *p;
-      if (quoted) {
-        if (c == '\\')
-          ++p;  // over the end at most by one, which ends both loops
-        else
-          quoted = c != '"';
-        continue;
+    while (p < stop) {
+      while (!quoted && stop - p >= Marks::kBytes) {
+        const Marks marks = marks_in(p);
+        if (marks.quote || marks.closing >= depth) break;
+        ahead.values += marks.commas;
+        ahead.brackets += marks.brackets + marks.braces;
+        depth = depth + marks.brackets + marks.braces - marks.closing;
+        p += Marks::kBytes;
       }
-      switch (c) {
-        case ',':
-          ++ahead.values;
-          break;
-        case '"':
-          quoted = true;
-          break;
-        case '[':
-        case '{':
-          ++ahead.brackets;
-          ++depth;
-          break;
-        case ']':
-        case '}':
-          if (--depth == 0) return ahead;
-          break;
-        default:
-          break;
+      // A block in which the order matters.
+      for (const char* const block = p + std::min(Marks::kBytes, stop - p); p < block; ++p) {
+        const char c = *p;
+        if (quoted) {
+          if (c == '\\')
+            ++p;  // over the end at most by one, which ends all loops
+          else
+            quoted = c != '"';
+          continue;
+        }
+        switch (c) {
+          case ',':
+            ++ahead.values;
+            break;
+          case '"':
+            quoted = true;
+            break;
+          case '[':
+          case '{':
+            ++ahead.brackets;
+            ++depth;
+            break;
+          case ']':
+          case '}':
+            if (--depth == 0) return ahead;
+            break;
+          default:
+            break;
+        }
       }
     }
     if (auto stopped = budget_.poll()) {
@@ -272,11 +284,12 @@ Cursor::Ahead Cursor::look_ahead() {
 
 bool Cursor::try_number(double& out) {
   skip_space();
+  if (const char* const behind = read_short(at_, end_, out)) {
+    at_ = behind;
+    return at_ < stop_ || poll();
+  }
   const auto [end, whole] = end_of_number(at_, end_);
-  if (!whole) return false;
-  if (!convert_short(at_, end, out) &&
-      !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out))
-    return false;
+  if (!whole || !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out)) return false;
   at_ = end;
   return at_ < stop_ || poll();
 }
@@ -299,6 +312,15 @@ bool Cursor::read_number(double& out, std::string_view right, Path below) {
 
 bool Cursor::try_index(std::uint32_t& out) {
   skip_space();
+  if (end_ - at_ > 8) {
+    const Digits digits = digits_at(at_);
+    const bool leading_zero = digits.count > 1 && *at_ == '0';
+    if (digits.count > 0 && !leading_zero && ends_value(at_[digits.count])) {
+      out = digits.value;
+      at_ += digits.count;
+      return at_ < stop_ || poll();
+    }
+  }
   const char* p = at_;
   std::uint64_t value = 0;
   while (p < end_ && is_digit(*p) && value < kNoIndex)

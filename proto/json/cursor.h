@@ -53,10 +53,19 @@ class Cursor {
   class Elements {
    public:
     explicit Elements(Cursor& cursor) : cursor_(cursor) {}
-    bool next();
+    bool next() {
+      Cursor& c = cursor_;
+      const bool plain = c.at_ + 1 < c.stop_ && *c.at_ == ',' && !is_space(c.at_[1]) && c.at_[1] != ']';
+      if (!plain || count_ == 0 || c.failed()) return next_anyhow();
+      ++c.at_;
+      ++count_;
+      return true;
+    }
     std::uint64_t index() const { return count_ - 1; }  // of the present one
 
    private:
+    bool next_anyhow();
+
     Cursor& cursor_;
     std::uint64_t count_ = 0;
   };

@@ -3,9 +3,11 @@
 // them.
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <system_error>
 
@@ -73,31 +75,62 @@ inline bool convert(std::string_view token, double& out) {
   return true;
 }
 
-// Most numbers: up to 2^53 in digits, and no more than 22 of them behind the point. Then both the digits and
-// the power of ten are doubles, and one division rounds correctly.   [Clinger90]
-inline bool convert_short(const char* p, const char* end, double& out) {
-  static constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+// The digits, at most 8, that begin at p, where 8 bytes can be read.
+struct Digits {
+  unsigned count;
+  std::uint32_t value;
+};
+
+inline Digits digits_at(const char* p) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, p, sizeof bytes);
+  bytes ^= 0x3030303030303030;  // digits are 0 to 9 now; adding 0x76 to anything more sets the upper bit
+  const std::uint64_t others = (bytes | (bytes + 0x7676767676767676)) & 0x8080808080808080;
+  const unsigned count = static_cast<unsigned>(std::countr_zero(others)) / 8;  // 64 / 8 when there are none
+  if (count == 0) return {0, 0};
+  bytes <<= 64 - 8 * count;  // as if zeros stood before them
+  bytes = (bytes * 10 + (bytes >> 8)) & 0x00FF00FF00FF00FF;
+  bytes = (bytes * 100 + (bytes >> 16)) & 0x0000FFFF0000FFFF;
+  return {count, static_cast<std::uint32_t>(bytes * 10000 + (bytes >> 32))};
+}
+
+inline constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+                                   1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+
+// Most numbers, in one pass: up to 2^53 in digits, and no exponent. Then both the digits and the power of ten
+// are doubles, and one division rounds correctly.   [Clinger90]
+// The end of such a number, before what may stand behind a value; null: it is none of them, or stands too
+// near to the end of the text.
+inline const char* read_short(const char* p, const char* end, double& out) {
   constexpr std::ptrdiff_t kMostDigits = 19;  // fit into 64 bits
+  constexpr std::ptrdiff_t kRoom = 64;        // what is looked at below, and more
+  if (end - p < kRoom) return nullptr;
   const bool negative = *p == '-';
   if (negative) ++p;
-  if (end - p > kMostDigits) return false;
   std::uint64_t digits = 0;
-  std::size_t behind = 0;
-  bool fraction = false;
-  for (; p < end; ++p) {
-    if (*p == '.') {
-      fraction = true;
-      continue;
+  const char* const first = p;
+  while (is_digit(*p) && p - first <= kMostDigits)
+    digits = 10 * digits + static_cast<std::uint64_t>(*p++ - '0');
+  std::ptrdiff_t count = p - first, behind = 0;
+  if (count == 0 || (*first == '0' && count > 1)) return nullptr;
+  if (*p == '.') {
+    ++p;
+    static constexpr std::uint64_t kWholeTens[] = {1,      10,      100,      1000,     10000,
+                                                   100000, 1000000, 10000000, 100000000};
+    for (unsigned found = 8; found == 8 && count <= kMostDigits; p += found) {
+      const Digits more = digits_at(p);
+      found = more.count;
+      digits = digits * kWholeTens[found] + more.value;
+      behind += found;
+      count += found;
     }
-    if (!is_digit(*p)) return false;  // an exponent
-    digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
-    behind += fraction ? 1 : 0;
+    if (behind == 0) return nullptr;
   }
-  if (digits > (std::uint64_t{1} << 53)) return false;
+  if (!ends_value(*p) || count > kMostDigits || digits > (std::uint64_t{1} << 53)) return nullptr;
   const double value = static_cast<double>(digits) / kTens[behind];
   out = negative ? -value : value;
-  return true;
+  return p;
 }
 
 }  // namespace subdivd::proto::json

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "proto/json/cursor.h"
+#include "proto/json/marks.h"
 
 namespace subdivd::proto::json {
 namespace {
@@ -89,6 +90,13 @@ class Surveyor {
   }
 
   void look_at_rest(std::size_t stop) {
+    while (at_ < stop && !quoted_) {
+      skip_blocks(stop);
+      look_at_bytes(std::min(stop, at_ + Marks::kBytes));
+    }
+  }
+
+  void look_at_bytes(std::size_t stop) {
     for (; at_ < stop; ++at_) {
       switch (body_[at_]) {
         case '"':
@@ -117,6 +125,19 @@ class Surveyor {
         default:
           break;
       }
+    }
+  }
+
+  // While no string begins and nothing stands among the members at the top.
+  void skip_blocks(std::size_t stop) {
+    for (; at_ + Marks::kBytes <= stop; at_ += Marks::kBytes) {
+      const Marks marks = marks_in(body_.data() + at_);
+      if (marks.quote || depth_ <= 1 + marks.closing) return;
+      depth_ = depth_ + marks.brackets + marks.braces - marks.closing;
+      if (ignored_) continue;
+      result_.commas += marks.commas;
+      result_.brackets += marks.brackets;
+      result_.braces += marks.braces;
     }
   }
 
