@@ -1,21 +1,12 @@
 #include "proto/json/cursor.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <system_error>
 
-#include "core/base/index.h"
 #include "proto/client_text.h"
-#include "proto/json/marks.h"
 #include "proto/json/number.h"
 
 namespace subdivd::proto::json {
 namespace {
-
-// Of a string that nobody asked for: enough to name a member in a pointer.
-constexpr std::size_t kMostOfSkipped = 2 * kLongestClientText;
-constexpr std::ptrdiff_t kBytesPerPoll = 1 << 18;  // some milliseconds of reading
 
 std::string_view name_of_type(Type type) {
   switch (type) {
@@ -35,31 +26,6 @@ std::string_view name_of_type(Type type) {
       break;
   }
   return "something else";
-}
-
-bool is_hex_digit(char c) { return is_digit(c) || ((c | 0x20) >= 'a' && (c | 0x20) <= 'f'); }
-
-bool continues(const char* p, const char* end, int count) {
-  for (int k = 0; k < count; ++k)
-    if (p + k >= end || (static_cast<unsigned char>(p[k]) & 0xC0) != 0x80) return false;
-  return true;
-}
-
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) {
-    put(0xC0 | code >> 6);
-  } else {
-    if (code < 0x10000) {
-      put(0xE0 | code >> 12);
-    } else {
-      put(0xF0 | code >> 18);
-      put(0x80 | (code >> 12 & 0x3F));
-    }
-    put(0x80 | (code >> 6 & 0x3F));
-  }
-  put(0x80 | (code & 0x3F));
 }
 
 }  // namespace
@@ -224,125 +190,7 @@ bool Cursor::Members::next(std::string_view& name) {
   return !c.failed();
 }
 
-// What this finds malformed, reading will find, too.
-Cursor::Ahead Cursor::look_ahead() {
-  Ahead ahead{.values = 1, .brackets = 0};
-  const char* p = at_;
-  std::size_t depth = 1;
-  bool quoted = false;
-  while (p < end_) {
-    const char* const stop = p + std::min(kBytesPerPoll, end_ - p);
-    while (p < stop) {
-      while (!quoted && stop - p >= Marks::kBytes) {
-        const Marks marks = marks_in(p);
-        if (marks.quote || marks.closing >= depth) break;
-        ahead.values += marks.commas;
-        ahead.brackets += marks.brackets + marks.braces;
-        depth = depth + marks.brackets + marks.braces - marks.closing;
-        p += Marks::kBytes;
-      }
-      // A block in which the order matters.
-      for (const char* const block = p + std::min(Marks::kBytes, stop - p); p < block; ++p) {
-        const char c = *p;
-        if (quoted) {
-          if (c == '\\')
-            ++p;  // over the end at most by one, which ends all loops
-          else
-            quoted = c != '"';
-          continue;
-        }
-        switch (c) {
-          case ',':
-            ++ahead.values;
-            break;
-          case '"':
-            quoted = true;
-            break;
-          case '[':
-          case '{':
-            ++ahead.brackets;
-            ++depth;
-            break;
-          case ']':
-          case '}':
-            if (--depth == 0) return ahead;
-            break;
-          default:
-            break;
-        }
-      }
-    }
-    if (auto stopped = budget_.poll()) {
-      fail_as(*std::move(stopped));
-      return {};
-    }
-  }
-  return ahead;
-}
-
 // --- Values -----------------------------------------------------------------------------------------------
-
-bool Cursor::try_number(double& out) {
-  skip_space();
-  if (const char* const behind = read_short(at_, end_, out)) {
-    at_ = behind;
-    return at_ < stop_ || poll();
-  }
-  const auto [end, whole] = end_of_number(at_, end_);
-  if (!whole || !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out)) return false;
-  at_ = end;
-  return at_ < stop_ || poll();
-}
-
-bool Cursor::read_number(double& out, std::string_view right, Path below) {
-  if (failed()) return false;
-  if (try_number(out)) return true;
-  if (failed()) return false;
-  if (type() != Type::number) return fail_type(right, std::move(below));
-  const auto [end, whole] = end_of_number(at_, end_);
-  if (!whole) {
-    at_ = end;
-    return fail_syntax(std::move(below));
-  }
-  return fail(ErrorCode::not_finite,
-              in_quotes(std::string_view(at_, static_cast<std::size_t>(end - at_))) +
-                  " is beyond what a double can hold; it must be " + std::string(right),
-              std::move(below));
-}
-
-bool Cursor::try_index(std::uint32_t& out) {
-  skip_space();
-  if (end_ - at_ > 8) {
-    const Digits digits = digits_at(at_);
-    const bool leading_zero = digits.count > 1 && *at_ == '0';
-    if (digits.count > 0 && !leading_zero && ends_value(at_[digits.count])) {
-      out = digits.value;
-      at_ += digits.count;
-      return at_ < stop_ || poll();
-    }
-  }
-  const char* p = at_;
-  std::uint64_t value = 0;
-  while (p < end_ && is_digit(*p) && value < kNoIndex)
-    value = 10 * value + static_cast<std::uint64_t>(*p++ - '0');
-  const bool ends = p == end_ || ends_value(*p);
-  const bool leading_zero = p - at_ > 1 && *at_ == '0';
-  if (p > at_ && ends && !leading_zero) {
-    if (value >= kNoIndex) return false;
-    out = static_cast<std::uint32_t>(value);
-    at_ = p;
-    return at_ < stop_ || poll();
-  }
-  const char* const before = at_;
-  double real = 0;
-  if (!try_number(real)) return false;
-  if (real >= 0 && real < kNoIndex && real == std::floor(real)) {
-    out = static_cast<std::uint32_t>(real);
-    return true;
-  }
-  at_ = before;
-  return false;
-}
 
 bool Cursor::read_literal(std::string_view literal) {
   const auto left = static_cast<std::size_t>(end_ - at_);
@@ -365,133 +213,6 @@ bool Cursor::read_bool(bool& out, std::string_view right) {
 bool Cursor::read_null() {
   if (type() != Type::null) return fail_type("null");
   return read_literal("null");
-}
-
-// The end of the character of several bytes at p; null: it is not UTF-8.   [RFC 3629]
-const char* Cursor::check_character(const char* p) const {
-  const auto first = static_cast<unsigned char>(*p);
-  const auto second = p + 1 < end_ ? static_cast<unsigned char>(p[1]) : 0u;
-  if (first >= 0xC2 && first < 0xE0) return continues(p + 1, end_, 1) ? p + 2 : nullptr;
-  if (first >= 0xE0 && first < 0xF0) {
-    // Neither longer than needed nor half of a pair.
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0)) return nullptr;
-    return continues(p + 1, end_, 2) ? p + 3 : nullptr;
-  }
-  if (first >= 0xF0 && first < 0xF5) {
-    if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90)) return nullptr;
-    return continues(p + 1, end_, 3) ? p + 4 : nullptr;
-  }
-  return nullptr;
-}
-
-// Stands before what is no character; one that the end of the body cuts is not wrong.
-bool Cursor::fail_character() {
-  const auto first = static_cast<unsigned char>(*at_);
-  const std::ptrdiff_t left = end_ - at_, whole = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (first >= 0xC2 && first < 0xF5 && left < whole && continues(at_ + 1, end_, static_cast<int>(left) - 1))
-    at_ = end_;
-  return fail_syntax();
-}
-
-bool Cursor::read_string(std::string_view& out) {
-  if (type() != Type::string) return fail_type("a string");
-  const char* const begin = ++at_;
-  while (at_ < end_) {
-    const auto c = static_cast<unsigned char>(*at_);
-    if (c == '"') {
-      out = {begin, static_cast<std::size_t>(at_ - begin)};
-      ++at_;
-      return at_ < stop_ || poll();
-    }
-    if (c == '\\') return read_long_string(out, begin);
-    if (c < 0x20) return fail_syntax();
-    if (c < 0x80) {
-      ++at_;
-    } else {
-      const char* const next = check_character(at_);
-      if (next == nullptr) return fail_character();
-      at_ = next;
-    }
-    if (at_ >= stop_ && !poll()) return false;
-  }
-  return fail_syntax();
-}
-
-// A string with escapes, which begins at `begin`; the cursor stands on the first of them.
-bool Cursor::read_long_string(std::string_view& out, const char* begin) {
-  const std::size_t most = skipping_ ? kMostOfSkipped : std::string::npos;
-  unescaped_.assign(begin, std::min(static_cast<std::size_t>(at_ - begin), most));
-  while (at_ < end_) {
-    if (unescaped_.size() > most) unescaped_.resize(most);
-    const auto c = static_cast<unsigned char>(*at_);
-    if (c == '"') {
-      ++at_;
-      out = unescaped_;
-      return at_ < stop_ || poll();
-    }
-    if (c < 0x20) return fail_syntax();
-    if (c == '\\') {
-      if (!read_escape()) return false;
-    } else {
-      const char* const next = c < 0x80 ? at_ + 1 : check_character(at_);
-      if (next == nullptr) return fail_character();
-      unescaped_.append(at_, next);
-      at_ = next;
-    }
-    if (at_ >= stop_ && !poll()) return false;
-  }
-  return fail_syntax();
-}
-
-bool Cursor::read_escape() {
-  const auto unit = [&](std::uint32_t& code) {  // \uXXXX
-    for (const char* const begin = at_; at_ < begin + 6; ++at_) {
-      if (at_ == end_) return false;
-      const bool fits = at_ == begin ? *at_ == '\\' : at_ == begin + 1 ? *at_ == 'u' : is_hex_digit(*at_);
-      if (!fits) return false;
-    }
-    std::from_chars(at_ - 4, at_, code, 16);
-    return true;
-  };
-  static constexpr std::string_view kLetters = "\"\\/bfnrt", kMeanings = "\"\\/\b\f\n\r\t";
-  if (at_ + 1 == end_) {
-    ++at_;
-    return fail_syntax();
-  }
-  if (at_[1] != 'u') {
-    const std::size_t letter = kLetters.find(at_[1]);
-    if (letter == std::string_view::npos) return fail_syntax();
-    unescaped_ += kMeanings[letter];
-    at_ += 2;
-    return true;
-  }
-  std::uint32_t code = 0, second = 0;
-  if (!unit(code)) return fail_syntax();
-  if (code >= 0xDC00 && code < 0xE000) return fail_syntax();  // half of a pair
-  if (code >= 0xD800 && code < 0xDC00) {
-    if (!unit(second) || second < 0xDC00 || second >= 0xE000) return fail_syntax();
-    code = 0x10000 + ((code - 0xD800) << 10) + (second - 0xDC00);
-  }
-  append_utf8(unescaped_, code);
-  return true;
-}
-
-bool Cursor::read_string(std::string& out) {
-  std::string_view text;
-  if (!read_string(text)) return false;
-  out = text;
-  return true;
-}
-
-bool Cursor::read_word(std::span<const std::string_view> valid, std::size_t& out) {
-  if (type() != Type::string) return fail_type(std::string("one of ") + either_of(valid));
-  std::string_view text;
-  if (!read_string(text)) return false;
-  const auto found = std::find(valid.begin(), valid.end(), text);
-  if (found == valid.end())
-    return fail(ErrorCode::bad_enum, std::string("this is ") + in_quotes(text) + hint(text, valid));
-  out = static_cast<std::size_t>(found - valid.begin());
-  return true;
 }
 
 bool Cursor::skip(std::size_t depth_left) {

@@ -153,6 +153,8 @@ class Cursor {
   bool fail_twice(std::string_view name);
 
  private:
+  static constexpr std::ptrdiff_t kBytesPerPoll = 1 << 18;  // some milliseconds of reading
+
   template <class Table>
   static auto names_of(const Table& table) {
     std::array<std::string_view, std::tuple_size_v<Table>> names;
