@@ -12,7 +12,6 @@ inline constexpr Count kMaxPrimitives = 65536;  // of all meshes together; of an
 inline constexpr Count kMaxElements = 262144;   // of every other array at the top: accessors, nodes, …
 inline constexpr Count kMaxAttributes = 64;     // of a primitive, and different ones in a mesh
 inline constexpr Count kMaxNameBytes = 65536;   // of a member of any JSON object
-inline constexpr Count kMaxNumberBytes = 4096;  // characters of a JSON number
 inline constexpr Count kMaxRepeatedName = 256;  // bytes of a mesh's name that messages and statistics repeat
 
 }  // namespace subdivd::proto::gltf

@@ -1,8 +1,11 @@
 #include "proto/gltf/json_shape.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
 
-#include "proto/gltf/caps.h"
+#include "proto/client_text.h"
+#include "proto/json_limits.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -39,6 +42,7 @@ class Counter {
   struct Open {
     Count ordinal = 0;
     bool object = false, empty = true;
+    std::string_view name = {};  // of an object's present member, as it is written
   };
   Result<void> open(bool object);
   void close();
@@ -47,6 +51,7 @@ class Counter {
   Result<std::size_t> string(std::size_t begin);
   Result<std::size_t> white_space(std::size_t begin);
   Result<std::size_t> word(std::size_t begin);
+  Path path() const;
   void text_of(std::size_t size) {
     if (size > kInPlace) shape_.bytes += size + 1 + kBlockBytes;
   }
@@ -59,16 +64,33 @@ class Counter {
   Work& work_;
   JsonShape shape_;
   std::vector<Open> open_;
+  std::string_view last_string_;
 };
+
+// What the text of a string says, as far as a pointer shows it.
+std::string shown(std::string_view written) {
+  const std::string_view begin =
+      written.substr(0, 6 * kLongestClientText);  // escapes have 6 characters at most
+  if (begin.find('\\') == std::string_view::npos) return client_text(begin);
+  const auto read = nlohmann::json::parse('"' + std::string(begin) + '"', nullptr, false);
+  return client_text(read.is_string() ? read.get_ref<const std::string&>() : std::string(begin));
+}
+
+// To what begins now. For refusals of what the parser is not to see.
+Path Counter::path() const {
+  Path path;
+  for (const Open& container : open_) {
+    if (container.object)
+      path.emplace_back(shown(container.name));
+    else
+      path.emplace_back(std::uint64_t{shape_.sizes[container.ordinal]} - 1);
+  }
+  return path;
+}
 
 Result<void> Counter::open(bool object) {
   // 20,000 levels of nested extras overflow the stack of whoever walks or destroys them recursively.
-  if (open_.size() >= limits_.max_depth)
-    return Error{ErrorCode::too_large,
-                 "JSON is nested deeper than the " + std::to_string(limits_.max_depth) + " levels allowed",
-                 {},
-                 open_.size() + 1,
-                 limits_.max_depth};
+  if (open_.size() >= limits_.max_depth) return nested_too_deeply(path(), limits_.max_depth);
   if (shape_.sizes.size() == shape_.sizes.capacity()) {
     // The old array lives until the new one is filled.
     const Count more = std::max<Count>(64, 2 * shape_.sizes.size());
@@ -76,7 +98,7 @@ Result<void> Counter::open(bool object) {
     work_.drop(shape_.sizes.size() * sizeof(Index));
     shape_.sizes.reserve(more);
   }
-  open_.push_back({shape_.sizes.size(), object, true});
+  open_.push_back({.ordinal = shape_.sizes.size(), .object = object});
   shape_.sizes.push_back(0);
   return {};
 }
@@ -110,6 +132,7 @@ Result<void> Counter::element() {
 Result<std::size_t> Counter::string(std::size_t begin) {
   const auto end = end_of_string(text_, begin, work_);
   if (!end) return end;
+  last_string_ = text_.substr(begin, *end - begin);
   text_of(*end - begin);
   long_text(begin, *end, true);
   if (auto stop = work_.spend_bytes(*end - begin)) return *std::move(stop);
@@ -131,12 +154,7 @@ Result<std::size_t> Counter::word(std::size_t begin) {
   const std::size_t size = end - begin;
   text_of(size);
   if (size <= kMaxNumberBytes) return end;
-  return Error{ErrorCode::too_large,
-               "the number at byte " + std::to_string(begin) + " has " + std::to_string(size) +
-                   " characters; " + std::to_string(kMaxNumberBytes) + " are allowed",
-               {},
-               size,
-               kMaxNumberBytes};
+  return number_too_long(path(), begin, size);
 }
 
 Result<JsonShape> Counter::count() {
@@ -166,6 +184,7 @@ Result<JsonShape> Counter::count() {
         if (auto good = one_more(); !good) return good.error();
       ++at;
     } else if (c == ':') {
+      if (!open_.empty()) open_.back().name = last_string_;
       ++at;
     } else {
       const auto end = c == '"' ? string(at + 1) : word(at);

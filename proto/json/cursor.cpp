@@ -4,6 +4,7 @@
 
 #include "proto/client_text.h"
 #include "proto/json/number.h"
+#include "proto/json_limits.h"
 
 namespace subdivd::proto::json {
 namespace {
@@ -49,10 +50,14 @@ Cursor::Step::Step(Cursor& cursor, std::uint64_t element) : cursor_(cursor) {
 
 bool Cursor::fail(ErrorCode code, std::string message, Path below) {
   if (error_) return false;
+  error_ = Error{code, std::move(message), path_to(std::move(below)), 0, 0};
+  return false;
+}
+
+Path Cursor::path_to(Path below) const {
   Path where = path_;
   where.insert(where.end(), std::make_move_iterator(below.begin()), std::make_move_iterator(below.end()));
-  error_ = Error{code, std::move(message), std::move(where), 0, 0};
-  return false;
+  return where;
 }
 
 bool Cursor::fail_as(Error error) {
@@ -215,30 +220,33 @@ bool Cursor::read_null() {
   return read_literal("null");
 }
 
-bool Cursor::skip(std::size_t depth_left) {
+bool Cursor::skip(std::size_t deepest) {
   const bool before = std::exchange(skipping_, true);
-  const bool fine = skip_value(depth_left);
+  const bool fine = skip_value(path_.size(), deepest);
   skipping_ = before;
-  return fine;
+  return fine || (!failed() && fail_as(nested_too_deeply(path_, deepest)));
 }
 
-bool Cursor::skip_value(std::size_t depth_left) {
+// The value stands in `depth` arrays and objects. False without a failure: it is nested too deeply.
+bool Cursor::skip_value(std::size_t depth, std::size_t deepest) {
   if (failed()) return false;
-  // A body of nothing but "[" would otherwise use up our stack.
-  if (depth_left == 0) return fail(ErrorCode::too_large, "arrays and objects are nested too deeply");
   // The path to what is wrong is put together on the way out.
   const auto blame = [&](PathStep step) {
+    if (!error_) return false;
     const ErrorCode code = error_->code;
-    if (code == ErrorCode::malformed || code == ErrorCode::not_finite)
+    if (code == ErrorCode::malformed || code == ErrorCode::not_finite || code == ErrorCode::too_large)
       error_->where.insert(error_->where.begin() + static_cast<std::ptrdiff_t>(path_.size()),
                            std::move(step));
     return false;
   };
-  switch (type()) {
+  const Type found = type();
+  // A body of nothing but "[" would otherwise use up our stack.
+  if ((found == Type::array || found == Type::object) && depth >= deepest) return false;
+  switch (found) {
     case Type::array: {
       ++at_;
       for (Elements all(*this); all.next();)
-        if (!skip_value(depth_left - 1)) return blame(all.index());
+        if (!skip_value(depth + 1, deepest)) return blame(all.index());
       return !failed();
     }
     case Type::object: {
@@ -246,7 +254,7 @@ bool Cursor::skip_value(std::size_t depth_left) {
       std::string_view name;
       for (Members all(*this); all.next(name);) {
         std::string kept = client_text(name);
-        if (!skip_value(depth_left - 1)) return blame(std::move(kept));
+        if (!skip_value(depth + 1, deepest)) return blame(std::move(kept));
       }
       return !failed();
     }

@@ -110,7 +110,8 @@ class Cursor {
   };
   Ahead look_ahead();
 
-  // `below` leads to the value. A number beyond a double is not_finite.
+  // `below` leads to the value. A number beyond a double is not_finite; one of more than kMaxNumberBytes is
+  // too_large.
   bool read_number(double& out, std::string_view right, Path below = {});
   bool read_bool(bool& out, std::string_view right);
   bool read_null();
@@ -123,8 +124,9 @@ class Cursor {
   bool try_index(std::uint32_t& out);  // below kNoIndex; 3.0 and 1e2 are whole, too
   // Index of the word in `valid`.
   bool read_word(std::span<const std::string_view> valid, std::size_t& out);
-  // Any value, depth-first, for members that are looked at but not used.
-  bool skip(std::size_t depth_left);
+  // Any value, depth-first, for members that are looked at but not used. `deepest`: how many arrays and
+  // objects of the body may stand in each other; every step of path() leads into one of them.
+  bool skip(std::size_t deepest);
 
   // Calls read() of the target for every member of the object, the cursor standing in the member. Unknown
   // names and names given twice are refused. `seen` comes back with one bit per member of the table.
@@ -175,7 +177,9 @@ class Cursor {
   bool read_long_string(std::string_view& out, const char* begin);
   bool read_escape();
   bool fail_character();
-  bool skip_value(std::size_t depth_left);
+  bool fail_long_number(Path below);
+  Path path_to(Path below) const;
+  bool skip_value(std::size_t depth, std::size_t deepest);
   const char* check_character(const char* p) const;
 
   const char* const begin_;

@@ -7,8 +7,26 @@
 #include "proto/json/cursor.h"
 #include "proto/json/marks.h"
 #include "proto/json/number.h"
+#include "proto/json_limits.h"
 
 namespace subdivd::proto::json {
+namespace {
+
+bool belongs_to_number(char c) {
+  return is_digit(c) || c == '.' || c == 'e' || c == 'E' || c == '-' || c == '+';
+}
+
+// As end_of_number, but not further than one character too many.
+NumberEnd end_of_capped(const char* p, const char* end) {
+  constexpr auto kMost = static_cast<std::ptrdiff_t>(kMaxNumberBytes) + 1;
+  return end_of_number(p, p + std::min(end - p, kMost));
+}
+
+bool is_too_long(const char* begin, const char* end) {
+  return end - begin > static_cast<std::ptrdiff_t>(kMaxNumberBytes);
+}
+
+}  // namespace
 
 // What this finds malformed, reading will find, too.
 Cursor::Ahead Cursor::look_ahead() {
@@ -72,8 +90,10 @@ bool Cursor::try_number(double& out) {
     at_ = behind;
     return at_ < stop_ || poll();
   }
-  const auto [end, whole] = end_of_number(at_, end_);
-  if (!whole || !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out)) return false;
+  const auto [end, whole] = end_of_capped(at_, end_);
+  if (!whole || is_too_long(at_, end) ||
+      !convert(std::string_view(at_, static_cast<std::size_t>(end - at_)), out))
+    return false;
   at_ = end;
   return at_ < stop_ || poll();
 }
@@ -83,7 +103,8 @@ bool Cursor::read_number(double& out, std::string_view right, Path below) {
   if (try_number(out)) return true;
   if (failed()) return false;
   if (type() != Type::number) return fail_type(right, std::move(below));
-  const auto [end, whole] = end_of_number(at_, end_);
+  const auto [end, whole] = end_of_capped(at_, end_);
+  if (is_too_long(at_, end)) return fail_long_number(std::move(below));
   if (!whole) {
     at_ = end;
     return fail_syntax(std::move(below));
@@ -92,6 +113,17 @@ bool Cursor::read_number(double& out, std::string_view right, Path below) {
               in_quotes(std::string_view(at_, static_cast<std::size_t>(end - at_))) +
                   " is beyond what a double can hold; it must be " + std::string(right),
               std::move(below));
+}
+
+// Stands before the number, which may be all of the body.
+bool Cursor::fail_long_number(Path below) {
+  const char* const begin = at_;
+  while (at_ < end_ && belongs_to_number(*at_)) {
+    ++at_;
+    if (at_ >= stop_ && !poll()) return false;
+  }
+  return fail_as(number_too_long(path_to(std::move(below)), static_cast<Count>(begin - begin_),
+                                 static_cast<Count>(at_ - begin)));
 }
 
 bool Cursor::try_index(std::uint32_t& out) {
@@ -107,7 +139,7 @@ bool Cursor::try_index(std::uint32_t& out) {
   }
   const char* p = at_;
   std::uint64_t value = 0;
-  while (p < end_ && is_digit(*p) && value < kNoIndex)
+  while (p < end_ && is_digit(*p) && p - at_ < 11)  // one more than any index has
     value = 10 * value + static_cast<std::uint64_t>(*p++ - '0');
   const bool ends = p == end_ || ends_value(*p);
   const bool leading_zero = p - at_ > 1 && *at_ == '0';

@@ -21,7 +21,7 @@ Result<void> read_document(std::string_view body, const Budget& budget,
 // The members "curves", "surfaces" and "options".
 bool read_curve_list(Cursor& cursor, RefineRequest& out);
 bool read_surface_list(Cursor& cursor, RefineRequest& out);
-// `taken`: names of the options that are taken here.
-bool read_options(Cursor& cursor, Options& out, std::span<const std::string_view> taken);
+// `taken`: names of the options that are taken here. `deepest`: see Cursor::skip.
+bool read_options(Cursor& cursor, std::size_t deepest, Options& out, std::span<const std::string_view> taken);
 
 }  // namespace subdivd::proto::json

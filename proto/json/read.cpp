@@ -72,7 +72,7 @@ class DocumentReader {
 
   bool surfaces() { return read_surface_list(cursor_, out_); }
 
-  bool options() { return read_options(cursor_, out_.options, option_names()); }
+  bool options() { return read_options(cursor_, limits_.max_json_depth, out_.options, option_names()); }
 
   // Members of an answer: it is a valid request, so they may stand here. They are looked at, not used.
   bool ignored() { return cursor_.skip(limits_.max_json_depth); }
@@ -155,8 +155,7 @@ bool read_surface_list(Cursor& cursor, RefineRequest& out) {
 namespace {
 
 // The value of an option, of whatever type it is; arrays and objects are looked at and left.
-bool read_option_value(Cursor& cursor, OptionValue& out) {
-  constexpr std::size_t kDeepest = 64;
+bool read_option_value(Cursor& cursor, std::size_t deepest, OptionValue& out) {
   switch (cursor.type()) {
     case Type::boolean:
       return cursor.read_bool(out.boolean.emplace(), "true or false");
@@ -169,10 +168,10 @@ bool read_option_value(Cursor& cursor, OptionValue& out) {
       return cursor.read_null();
     case Type::array:
       out.other = "an array";
-      return cursor.skip(kDeepest);
+      return cursor.skip(deepest);
     case Type::object:
       out.other = "an object";
-      return cursor.skip(kDeepest);
+      return cursor.skip(deepest);
     case Type::none:
       break;
   }
@@ -181,7 +180,8 @@ bool read_option_value(Cursor& cursor, OptionValue& out) {
 
 }  // namespace
 
-bool read_options(Cursor& cursor, Options& out, std::span<const std::string_view> taken) {
+bool read_options(Cursor& cursor, std::size_t deepest, Options& out,
+                  std::span<const std::string_view> taken) {
   if (!cursor.open_object("an object of options")) return false;
   std::bitset<64> seen;
   std::string_view key;
@@ -196,7 +196,7 @@ bool read_options(Cursor& cursor, Options& out, std::span<const std::string_view
                          "the member " + in_quotes(key) + " is given twice; give it once");
     seen.set(number);
     OptionValue given;
-    if (!read_option_value(cursor, given)) return false;
+    if (!read_option_value(cursor, deepest, given)) return false;
     if (Result<void> done = set_option(out, spec->name, given, cursor.path()); !done)
       return cursor.fail_as(std::move(done).error());
   }

@@ -108,7 +108,9 @@ class CurveTaskReader {
 
   bool curves() { return read_curve_list(cursor_, out_.curves); }
   bool surfaces() { return read_surface_list(cursor_, out_.curves); }
-  bool options() { return read_options(cursor_, out_.curves.options, options_of(task().kind)); }
+  bool options() {
+    return read_options(cursor_, limits_.max_json_depth, out_.curves.options, options_of(task().kind));
+  }
 
   bool samples() {
     if (!cursor_.open_object("an object with curves and ts, or with surfaces, us and vs")) return false;

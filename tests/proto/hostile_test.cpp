@@ -109,6 +109,23 @@ TEST(hostile, depth_in_an_ignored_member) {
             "too_large /statistics");
 }
 
+// One limit for the whole body, whatever stands in it.
+TEST(hostile, the_deepest_nesting) {
+  const auto nested = [](const std::string& begin, std::size_t levels, const std::string& end) {
+    return begin + repeated("[", levels) + "1" + repeated("]", levels) + end;
+  };
+  const auto triangle = std::string(kTriangle.substr(0, kTriangle.size() - 1));
+  EXPECT_EQ(refusal(nested(triangle + R"(,"statistics":)", 63, "}")), "accepted");
+  EXPECT_EQ(refusal(nested(triangle + R"(,"statistics":)", 64, "}")), "too_large /statistics");
+  EXPECT_EQ(refusal(nested(R"({"options":{"level":)", 62, "}}")), "wrong_type /options/level");
+  EXPECT_EQ(refusal(nested(R"({"options":{"level":)", 63, "}}")), "too_large /options/level");
+  const std::string body = nested(R"({"options":{"level":)", 3, "}}");
+  EXPECT_EQ(refusal(body, {}, {.max_json_depth = 5}), "wrong_type /options/level");
+  EXPECT_EQ(refusal(body, {}, {.max_json_depth = 4}), "too_large /options/level");
+  EXPECT_EQ(message(nested(triangle + R"(,"statistics":)", 64, "}")),
+            "JSON is nested deeper than the 64 levels allowed");
+}
+
 TEST(hostile, depth_in_options) { expect_quick_refusal(R"({"options":{"level":)" + repeated("[", 1000000)); }
 
 TEST(hostile, many_empty_tuples) {
@@ -139,9 +156,32 @@ TEST(hostile, an_endless_tuple) {
 }
 
 TEST(hostile, a_number_of_a_million_digits) {
-  EXPECT_EQ(refusal(R"({"points":[)" + std::string(1000000, '1') + "]}"), "not_finite /points/0");
-  EXPECT_EQ(refusal(R"({"points":[0,0,0.)" + std::string(1000000, '1') + R"(],"faceVertexIndices":[]})"),
-            "wrong_length /faceVertexIndices");
+  const std::string ones(1000000, '1'), zeros(1000000, '0');
+  EXPECT_EQ(refusal(R"({"points":[)" + ones + "]}"), "too_large /points/0");
+  EXPECT_EQ(refusal(R"({"points":[0,0,0.)" + ones + R"(],"faceVertexIndices":[]})"), "too_large /points/2");
+  EXPECT_EQ(refusal(R"({"points":[[0,0,1e)" + zeros + R"(]],"faceVertexIndices":[]})"),
+            "too_large /points/0/2");
+  EXPECT_EQ(refusal(R"({"faceVertexIndices":[[0,1.)" + zeros + "]]}"), "too_large /faceVertexIndices/0/1");
+  EXPECT_EQ(refusal(R"({"options":{"level":)" + ones + "}}"), "too_large /options/level");
+  EXPECT_EQ(refusal(R"({"statistics":{"a":[0,)" + ones + "]}}"), "too_large /statistics/a/1");
+}
+
+// As long as in glTF, and told in the same words.
+TEST(hostile, the_longest_number) {
+  const std::string behind = R"(,0],"faceVertexIndices":[]})";
+  const auto points = [&](std::size_t size) {
+    return R"({"points":[0,0.)" + std::string(size - 2, '1') + behind;
+  };
+  EXPECT_EQ(refusal(points(4096)), "wrong_length /faceVertexIndices");
+  EXPECT_EQ(refusal(points(4097)), "too_large /points/1");
+  EXPECT_EQ(message(points(4097)), "the number at byte 13 has 4097 characters; 4096 are allowed");
+  const auto error = decode(points(5000)).error();
+  EXPECT_EQ(error.predicted, 5000u);
+  EXPECT_EQ(error.allowed, 4096u);
+  for (const std::string end : {".5", "e1", "1", ""}) {
+    const std::string body = R"({"points":[)" + std::string(4096, '1') + end;
+    EXPECT_EQ(refusal(body), end.empty() ? "not_finite /points/0" : "too_large /points/0") << end;
+  }
 }
 
 TEST(hostile, a_name_of_a_million_letters_is_not_repeated_in_the_message) {

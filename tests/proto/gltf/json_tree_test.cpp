@@ -54,6 +54,20 @@ TEST(JsonTree, refuses_deep_nesting) {
   EXPECT_EQ(error_of(std::string(1000000, '[')).code, ErrorCode::too_large);
 }
 
+// Both are refused before the parser runs, which knew the place.
+TEST(JsonTree, points_at_what_is_nested_too_deeply_or_too_long) {
+  const JsonLimits four_levels{.max_depth = 4};
+  EXPECT_EQ(error_of(R"({"a":[0,[]],"b":{"c":["x",{"d":[]}]}})", four_levels).where,
+            (Path{"b", "c", std::uint64_t{1}, "d"}));
+  EXPECT_EQ(error_of(R"([[],[[]],[{"\u00e9\/":[[]]}]])", four_levels).where,
+            (Path{std::uint64_t{2}, std::uint64_t{0}, "\u00e9/", std::uint64_t{0}}));
+  const std::string number(5000, '1'), name(100000, 'n');
+  EXPECT_EQ(error_of(R"({"a":{"x":[]},"b":[[0,1],2,)" + number + "]}").where, (Path{"b", std::uint64_t{2}}));
+  const Path where = error_of("{\"" + name + "\":" + number + "}").where;
+  ASSERT_EQ(where.size(), 1u);
+  EXPECT_LT(std::get<std::string>(where[0]).size(), 100u);
+}
+
 TEST(JsonTree, accepts_nesting_up_to_the_limit) {
   const std::string text = std::string(64, '[') + std::string(64, ']');
   EXPECT_TRUE(parse(text, {}).ok());
