@@ -3,6 +3,7 @@
 // which make the first writes 4 to 9 times faster (a 4 KiB page costs about 2 us to be given out).
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <utility>
@@ -15,6 +16,18 @@
 namespace subdivd {
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+// Asks the kernel for huge pages in a block of bytes that nothing has been written to, wherever whole ones
+// lie within it. Advice only: without them the block is as good, and slower. Getting 800 MB and giving them
+// back takes a fifth of the time with them; the system gives back at once, however long it takes.
+inline void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  const std::uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;
+  const std::uintptr_t last = (begin + bytes) / kHugePage * kHugePage;
+  if (first < last) (void)::madvise(static_cast<char*>(block) + (first - begin), last - first, MADV_HUGEPAGE);
+#endif
+}
 
 // Allocates as std::allocator does, but aligns blocks of at least one huge page and asks the kernel for huge
 // pages there; leaves elements of trivial types unset where a container would zero them.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/buffer.h"
+
 namespace subdivd::proto::json {
 namespace {
 
@@ -53,11 +55,18 @@ bool read_tuple(Cursor& cursor, std::uint64_t i, std::string_view noun, Tuples& 
                      {i});
 }
 
+// Takes all the room at once: growing would copy what is there, in one go that nothing stops.
+template <class Scalar>
+void reserve(std::vector<Scalar>& out, std::size_t count) {
+  out.reserve(count);
+  prefer_huge_pages(out.data(), out.capacity() * sizeof(Scalar));
+}
+
 // Enters the array and makes room for as many scalars as there can be in it.
 template <class Scalar>
 bool open_scalars(Cursor& cursor, std::string_view right, std::vector<Scalar>& out) {
   if (!cursor.open_array(right)) return false;
-  out.reserve(cursor.look_ahead().values);
+  reserve(out, cursor.look_ahead().values);
   return !cursor.failed();
 }
 
@@ -122,12 +131,12 @@ bool read_reals(Cursor& cursor, std::vector<double>& out) {
 bool read_lists(Cursor& cursor, std::string_view noun, Lists& out) {
   if (!cursor.open_array("an array of whole numbers, or of arrays of them")) return false;
   const Cursor::Ahead ahead = cursor.look_ahead();
-  out.indices.reserve(ahead.values);
+  reserve(out.indices, ahead.values);
   for (Cursor::Elements elements(cursor); elements.next();) {
     const std::uint64_t i = elements.index();
     if (i == 0) {
       out.form = cursor.type() == Type::array ? ArrayForm::nested : ArrayForm::flat;
-      if (out.form == ArrayForm::nested) out.counts.reserve(ahead.brackets);
+      if (out.form == ArrayForm::nested) reserve(out.counts, ahead.brackets);
     }
     Index index = 0;
     if (out.form == ArrayForm::flat) {

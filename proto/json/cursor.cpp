@@ -1,6 +1,7 @@
 #include "proto/json/cursor.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "proto/client_text.h"
 #include "proto/json/number.h"
@@ -70,13 +71,19 @@ bool Cursor::fail_syntax(Path below) {
   if (at_ >= end_)
     return fail(ErrorCode::malformed, "the body ends in the middle of its JSON; is it cut short?",
                 std::move(below));
-  const std::string_view before(begin_, static_cast<std::size_t>(at_ - begin_));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t newline = before.rfind('\n');
-  const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
+  std::ptrdiff_t line = 1;
+  const char* begin_of_line = begin_;
+  for (const char* p = begin_; p < at_;) {
+    const char* const end = p + std::min(kBytesPerPoll, at_ - p);
+    line += std::count(p, end, '\n');
+    const char* const behind = std::find(std::reverse_iterator(end), std::reverse_iterator(p), '\n').base();
+    if (behind != p) begin_of_line = behind;
+    p = end;
+    if (auto stopped = budget_.poll()) return fail_as(*std::move(stopped));
+  }
   return fail(ErrorCode::malformed,
               "the body stops being valid JSON at line " + std::to_string(line) + ", column " +
-                  std::to_string(column) + " (byte " + std::to_string(before.size()) + ")",
+                  std::to_string(at_ - begin_of_line + 1) + " (byte " + std::to_string(at_ - begin_) + ")",
               std::move(below));
 }
 

@@ -118,6 +118,8 @@ class Cursor {
   // Without a copy where nothing is escaped; the view holds until the next string is read.
   bool read_string(std::string_view& out);
   bool read_string(std::string& out);
+  // Of what has been read, which may be as long as the body.
+  bool copy(std::string_view text, std::string& out);
   // The hot paths of arrays: false without a failure when the value is something else, and the cursor then
   // stands before it still.
   bool try_number(double& out);
@@ -175,6 +177,8 @@ class Cursor {
   bool poll();
   bool read_literal(std::string_view literal);
   bool read_long_string(std::string_view& out, const char* begin);
+  bool append(std::string_view text, std::string& out);
+  std::size_t rest_of_string();
   bool read_escape();
   bool fail_character();
   bool fail_long_number(Path below);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/base/buffer.h"
 #include "proto/client_text.h"
 #include "proto/json/cursor.h"
 #include "proto/json/number.h"
@@ -12,6 +13,12 @@ namespace {
 
 // Of a string that nobody asked for: enough to name a member in a pointer.
 constexpr std::size_t kMostOfSkipped = 2 * kLongestClientText;
+// At once: growing would copy what is there, in one go that nothing stops.
+void reserve(std::string& text, std::size_t size) {
+  text.reserve(size);
+  prefer_huge_pages(text.data(), text.capacity());
+}
+
 bool is_hex_digit(char c) { return is_digit(c) || ((c | 0x20) >= 'a' && (c | 0x20) <= 'f'); }
 
 bool continues(const char* p, const char* end, int count) {
@@ -89,10 +96,37 @@ bool Cursor::read_string(std::string_view& out) {
   return fail_syntax();
 }
 
+bool Cursor::append(std::string_view text, std::string& out) {
+  constexpr auto kPiece = static_cast<std::size_t>(kBytesPerPoll);
+  for (; !text.empty(); text.remove_prefix(std::min(text.size(), kPiece))) {
+    out.append(text.substr(0, kPiece));
+    if (text.size() > kPiece && !poll()) return false;
+  }
+  return !failed();
+}
+
+// Bytes up to the closing quote, or to the end of the body; what is malformed reading will find. 0 after a
+// failure.
+std::size_t Cursor::rest_of_string() {
+  const char* p = at_;
+  while (p < end_) {
+    for (const char* const stop = p + std::min(kBytesPerPoll, end_ - p); p < stop; ++p) {
+      if (*p == '"') return static_cast<std::size_t>(p - at_);
+      if (*p == '\\') ++p;  // over the end at most by one, which ends both loops
+    }
+    if (p < end_ && !poll()) return 0;
+  }
+  return static_cast<std::size_t>(end_ - at_);
+}
+
 // A string with escapes, which begins at `begin`; the cursor stands on the first of them.
 bool Cursor::read_long_string(std::string_view& out, const char* begin) {
   const std::size_t most = skipping_ ? kMostOfSkipped : std::string::npos;
-  unescaped_.assign(begin, std::min(static_cast<std::size_t>(at_ - begin), most));
+  const auto plain = static_cast<std::size_t>(at_ - begin);
+  unescaped_.clear();
+  const std::size_t rest = rest_of_string();
+  reserve(unescaped_, std::min(plain + rest, most));
+  if (!append({begin, std::min(plain, most)}, unescaped_)) return false;
   while (at_ < end_) {
     if (unescaped_.size() > most) unescaped_.resize(most);
     const auto c = static_cast<unsigned char>(*at_);
@@ -150,9 +184,13 @@ bool Cursor::read_escape() {
 
 bool Cursor::read_string(std::string& out) {
   std::string_view text;
-  if (!read_string(text)) return false;
-  out = text;
-  return true;
+  return read_string(text) && copy(text, out);
+}
+
+bool Cursor::copy(std::string_view text, std::string& out) {
+  out.clear();
+  reserve(out, text.size());
+  return append(text, out);
 }
 
 bool Cursor::read_word(std::span<const std::string_view> valid, std::size_t& out) {

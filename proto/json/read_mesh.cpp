@@ -107,20 +107,19 @@ bool MeshReader::hole_indices() { return read_indices(cursor_, result_.mesh.hole
 
 bool MeshReader::primvars() {
   if (!cursor_.open_object("an object of primvars by name")) return false;
-  std::set<std::string> names;
+  std::vector<Primvar>& primvars = result_.mesh.primvars;
+  const auto by_name = [&](std::size_t a, std::size_t b) { return primvars[a].name < primvars[b].name; };
+  std::set<std::size_t, decltype(by_name)> names(by_name);
   std::string_view key;
   for (Cursor::Members all(cursor_); all.next(key);) {
-    if (!names.emplace(key).second) return cursor_.fail_twice(key);
+    Primvar& primvar = primvars.emplace_back();
+    if (!cursor_.copy(key, primvar.name)) return false;
+    if (!names.insert(primvars.size() - 1).second) return cursor_.fail_twice(primvar.name);
     if (names.size() > kMostPrimvars)
       return cursor_.fail(ErrorCode::too_large, std::string("a mesh may have at most ") +
                                                     std::to_string(kMostPrimvars) + " primvars");
-    Primvar primvar;
-    primvar.name = key;
     const Cursor::Step step(cursor_, std::string_view(primvar.name));
-    ArrayForm form = ArrayForm::flat;
-    if (!read_primvar(cursor_, primvar, form)) return false;
-    result_.mesh.primvars.push_back(std::move(primvar));
-    result_.form.primvars.push_back(form);
+    if (!read_primvar(cursor_, primvar, result_.form.primvars.emplace_back(ArrayForm::flat))) return false;
   }
   return !cursor_.failed();
 }

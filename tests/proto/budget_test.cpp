@@ -87,6 +87,21 @@ TEST(json_budget, the_walk_stops_wherever_it_is) {
   }
 }
 
+// Copying 200 MB takes 100 ms, and counting their lines more, when there is one.
+TEST(json_budget, neither_copying_nor_counting_lines_goes_on_to_its_end) {
+  const std::string lines = repeated("\n", std::size_t{2} << 20) + "x";
+  Budget budget;
+  json::Cursor copying(lines, budget), failing(lines, budget);
+  ASSERT_EQ(failing.type(), json::Type::none);  // it stands on the x
+  budget.deadline = Budget::Clock::now();
+  std::string copy;
+  EXPECT_FALSE(copying.copy(lines, copy));
+  EXPECT_LT(copy.size(), lines.size());
+  EXPECT_EQ(copying.error()->code, ErrorCode::deadline_exceeded);
+  EXPECT_FALSE(failing.fail_syntax());
+  EXPECT_EQ(failing.error()->code, ErrorCode::deadline_exceeded);
+}
+
 TEST(json_budget, the_text_of_an_answer_stops_wherever_it_is) {
   Budget budget;
   json::TextWriter writer(budget);

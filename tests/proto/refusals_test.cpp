@@ -315,6 +315,17 @@ TEST(refusal_messages, guess_that_a_value_was_cut_short) {
     EXPECT_THAT(message(body), testing::HasSubstr("stops being valid JSON")) << body;
 }
 
+TEST(refusal_messages, count_lines_and_columns_of_long_bodies) {
+  const std::string lines(600000, '\n'), spaces(600000, ' ');
+  const auto place = [](const std::string& line, const std::string& column, const std::string& byte) {
+    return testing::EndsWith("at line " + line + ", column " + column + " (byte " + byte + ")");
+  };
+  EXPECT_THAT(message("{" + lines + "  x}"), place("600001", "3", "600003"));
+  EXPECT_THAT(message("{" + spaces + "x}"), place("1", "600002", "600001"));
+  EXPECT_THAT(message("{\n" + spaces + "x}"), place("2", "600001", "600002"));
+  EXPECT_THAT(message("{\n" + spaces + "\nx}"), place("3", "1", "600003"));
+}
+
 std::string place_of(std::string number, const std::string& before, const std::string& behind) {
   return refusal(before + std::move(number) + behind);
 }
