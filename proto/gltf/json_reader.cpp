@@ -51,8 +51,13 @@ class Feed {
     end_ = at_;
   }
   const std::optional<Error>& stopped() const { return stopped_; }
-  // The byte that was read last when the parser had read `count`.
-  std::size_t byte(std::size_t count) const { return std::min(count + left_out_ - 1, text_.size()); }
+  // The byte that was read last when the parser had read `count`. What is left out next may be behind us
+  // already: the iterator is one step ahead of the parser.
+  std::size_t byte(std::size_t count) const {
+    std::size_t at = count - 1;
+    for (std::size_t i = 0; i < next_ && longs_[i].begin <= at; ++i) at += longs_[i].end - longs_[i].begin;
+    return std::min(at, text_.size());
+  }
   std::string_view text() const { return text_; }
 
  private:
@@ -60,7 +65,6 @@ class Feed {
     if (next_ < longs_.size() && at_ == longs_[next_].begin) {
       const LongText& skip = longs_[next_++];
       if (skip.string) skipped_ = skip;
-      left_out_ += skip.end - skip.begin;
       at_ = skip.end;
     }
     if (auto why = work_.spend(kPiece / 4)) stop(*std::move(why));
@@ -70,7 +74,7 @@ class Feed {
   std::string_view text_;
   const std::vector<LongText>& longs_;
   Work& work_;
-  std::size_t at_ = 0, end_ = text_.size(), pause_ = 0, next_ = 0, left_out_ = 0;
+  std::size_t at_ = 0, end_ = text_.size(), pause_ = 0, next_ = 0;
   std::optional<LongText> skipped_;
   std::optional<Error> stopped_;
 };

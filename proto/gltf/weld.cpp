@@ -8,6 +8,7 @@
 
 #include "core/base/buffer.h"
 #include "proto/gltf/polled_sort.h"
+#include "proto/gltf/row_hash.h"
 
 namespace subdivd::proto::gltf {
 namespace {
@@ -32,20 +33,11 @@ class Rows {
     return difference == 0;
   }
 
-  // Every bit of the row moves every bit of the upper half.
   std::uint64_t hash(Count row) const {
-    std::uint64_t h = (group(row) + kSeed) * kFactor;
-    for (Count k = 0; k < width(); ++k) {
-      h ^= word(row, k);
-      h ^= h >> 32;
-      h *= kFactor;
-    }
-    h ^= h >> 29;
-    return h * kFactor;
+    return hash_of_row(group(row), width(), [&](Count k) { return word(row, k); });
   }
 
  private:
-  static constexpr std::uint64_t kSeed = 0x9E3779B97F4A7C15, kFactor = 0xD6E8FEB86659FD93;  // any odd ones
   const Number* values_;
   const Index* groups_;
   Count run_time_width_;
@@ -193,10 +185,6 @@ Result<Welded> weld_tuples(std::span<const double> values, Count width, std::spa
 
 Result<Welded> weld_tuples(std::span<const Index> values, Count width, Work& work) {
   return weld_rows<0>(values, width, std::span<const Index>(), work);
-}
-
-std::uint64_t hash_of_tuple(std::span<const double> tuple) {
-  return Rows<double, 0>(tuple, tuple.size(), {}).hash(0);
 }
 
 Result<Welded> weld_by_sorting(std::span<const double> values, Count width, std::span<const Index> groups,

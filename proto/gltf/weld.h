@@ -25,9 +25,6 @@ Result<Welded> weld_tuples(std::span<const double> values, Count width, std::spa
                            Work& work);
 Result<Welded> weld_tuples(std::span<const Index> values, Count width, Work& work);
 
-// What weld_tuples looks a tuple up by; tests attack it.
-std::uint64_t hash_of_tuple(std::span<const double> tuple);
-
 // The same by sorting: what a hash table that an attacker has filled gives way to, and what tests compare
 // with.
 Result<Welded> weld_by_sorting(std::span<const double> values, Count width, std::span<const Index> groups,

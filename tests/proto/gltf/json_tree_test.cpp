@@ -185,6 +185,11 @@ TEST(JsonTree, says_where_a_text_is_broken) {
            {"[\"" + head + "\\x" + head + "\"]", 10003},
            {"[\"" + head + "\x80" + head + "\"]", 10002},
            {"[" + space + "\"" + head + "\"" + space + "x]", 30003},
+           // Broken just before what the parser is not shown
+           {"[tru" + space + "e]", 4},
+           {"[tru\"" + head + "\"]", 4},
+           {"[" + space + "\"" + head + "\",1." + space + "]", 20006},
+           {"[1" + space, 10002},
        }) {
     const Error error = error_of(one.text);
     EXPECT_EQ(error.code, ErrorCode::malformed);
