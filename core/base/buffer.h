@@ -17,8 +17,8 @@ namespace subdivd {
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-// Asks the kernel for huge pages in a block of bytes that nothing has been written to, wherever whole ones lie
-// within it. Advice only: without them the block is as good, and slower. With them, 800 MB are filled in
+// Asks the kernel for huge pages in a block of bytes that nothing has been written to, wherever whole ones
+// lie within it. Advice only: without them the block is as good, and slower. With them, 800 MB are filled in
 // 160 ms instead of 380 and given back in 2 instead of 47; nothing can stop the giving back.
 inline void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
@@ -45,10 +45,7 @@ struct UnsetAllocator : std::allocator<T> {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kHugePage) return std::allocator<T>::allocate(count);
     void* block = ::operator new (bytes, std::align_val_t{kHugePage});
-#ifdef __linux__
-    // Advice only: without huge pages the block is as good, and slower.
-    (void)::madvise(block, bytes, MADV_HUGEPAGE);
-#endif
+    prefer_huge_pages(block, bytes);
     return static_cast<T*>(block);
   }
   void deallocate(T* block, std::size_t count) {

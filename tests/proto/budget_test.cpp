@@ -15,6 +15,7 @@
 #include "proto/json/survey.h"
 #include "proto/json/text_writer.h"
 #include "tests/proto/support.h"
+#include "tests/support/purse.h"
 
 namespace subdivd::proto::test {
 namespace {
@@ -133,23 +134,9 @@ TEST(json_budget, an_answer_stops_at_its_deadline) {
   EXPECT_EQ(payload.error().code, ErrorCode::deadline_exceeded);
 }
 
-// Grants so much and no more.
-class Purse final : public MemoryGrant {
- public:
-  explicit Purse(Count bytes) : left_(bytes) {}
-  Result<void> take(Count bytes) override {
-    if (bytes > left_) return Error{ErrorCode::overloaded, "others take the memory", {}, 0, 0};
-    left_ -= bytes;
-    return {};
-  }
-
- private:
-  Count left_;
-};
-
 TEST(json_budget, memory_that_is_not_there_is_no_fault_of_the_body) {
   const std::string body = R"({"points":[)" + repeated("0,", 1'000'000) + "0]}";
-  Purse purse(1'000'000);
+  subdivd::test::Purse purse(1'000'000);
   Budget budget;
   budget.memory = &purse;
   const auto request = decode_refine(body, BodyKind::json, {}, {}, budget);
@@ -160,7 +147,7 @@ TEST(json_budget, memory_that_is_not_there_is_no_fault_of_the_body) {
 
 // Counts that promise more corners than there are once asked for memory for all of them.
 TEST(json_budget, faces_that_are_not_there_take_no_memory) {
-  Purse purse(4'000'000);
+  subdivd::test::Purse purse(4'000'000);
   Budget budget;
   budget.memory = &purse;
   for (const char* counts : {"[4000000000]", "[3,4294967294]", "[4]", "[2,2]"}) {

@@ -12,6 +12,7 @@
 #include "core/splines/edit.h"
 #include "core/splines/spline.h"
 #include "server/handlers/compute_curves.h"
+#include "tests/support/purse.h"
 
 namespace subdivd::server {
 namespace {
@@ -69,20 +70,6 @@ json ask(Kind kind, const json& body, const Budget& budget = {}) {
   if (!edited) return refusal(edited.error());
   return json::parse(text_of(*encode_edited(*request, *std::move(edited))));
 }
-
-// Grants so much and no more.
-class Purse final : public MemoryGrant {
- public:
-  explicit Purse(Count bytes) : left_(bytes) {}
-  Result<void> take(Count bytes) override {
-    if (bytes > left_) return Error{ErrorCode::overloaded, "others take the memory", {}, 0, 0};
-    left_ -= bytes;
-    return {};
-  }
-
- private:
-  Count left_;
-};
 
 TEST(CurveTasks, evaluate_points_derivatives_and_frames) {
   const json answer =
@@ -468,14 +455,14 @@ TEST(CurveTasks, evaluate_many_curves_in_little_memory) {
     body["samples"]["curves"].push_back(i);
     body["samples"]["ts"].push_back(1);
   }
-  Purse purse(Count{4} << 20);
+  subdivd::test::Purse purse(Count{4} << 20);
   Budget budget;
   budget.memory = &purse;
   const json answer = ask(Kind::evaluate, body, budget);
   ASSERT_TRUE(answer.contains("samples")) << answer;
   EXPECT_EQ(answer["samples"]["points"].size(), kCurves);
   // What is kept of every curve counts.
-  Purse small(Count{100} << 10);
+  subdivd::test::Purse small(Count{100} << 10);
   budget.memory = &small;
   EXPECT_EQ(ask(Kind::evaluate, body, budget)["code"], "overloaded");
 }

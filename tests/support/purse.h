@@ -1,0 +1,20 @@
+#pragma once
+#include "core/base/budget.h"
+
+namespace subdivd::test {
+
+// Grants so much and no more.
+class Purse final : public MemoryGrant {
+ public:
+  explicit Purse(Count bytes) : left_(bytes) {}
+  Result<void> take(Count bytes) override {
+    if (bytes > left_) return Error{ErrorCode::overloaded, "others take the memory", {}, 0, 0};
+    left_ -= bytes;
+    return {};
+  }
+
+ private:
+  Count left_;
+};
+
+}  // namespace subdivd::test
