@@ -323,7 +323,6 @@ TEST(Memory, of_a_long_curve_that_is_edited_is_promised) {
   for (const auto& task : tasks) expect_kept(task.name, compute(task.kind, task.body), 0);
 }
 
-// AddressSanitizer and ThreadSanitizer reserve terabytes of addresses.
 void read_with_little_memory(const std::string& body) {
   std::ifstream status("/proc/self/statm");
   rlim_t pages = 0;
