@@ -94,6 +94,17 @@ for (const [what, body] of [
 
 // --- out of memory --------------------------------------------------------------------------------------------
 
+// Starting may take more addresses than resting: allocators take twice what they keep, to align it. A daemon that cannot
+// start says so and ends; then another one is started.
+async function withDaemonUnder(limit, flags, body) {
+  for (let tries = 1; ; ++tries)
+    try {
+      return await withDaemon(flags, body, { inShell: `ulimit -v ${limit}` });
+    } catch (error) {
+      if (tries === 20 || !/^the daemon (printed no address|ended with)/.test(error.message)) throw error;
+    }
+}
+
 test('where memory ends a valid body is answered 200 or 503, and the daemon lives', async () => {
   const flags = ['--threads', '4', '--max-concurrent', '1'];
   let atRest;
@@ -107,14 +118,14 @@ test('where memory ends a valid body is answered 200 or 503, and the daemon live
   ];
   const statuses = new Set();
   for (const more of isLong ? [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256] : [16, 32, 64, 128])
-    await withDaemon(flags, async (daemon) => {
+    await withDaemonUnder(Math.round((atRest + more * MiB) / 1024), flags, async (daemon) => {
       for (const [path, body] of requests) {
         const answer = await post(daemon.port, path, body);
         statuses.add(answer.status);
         assert.ok([200, 503].includes(answer.status), `${path} with ${more} MiB: status ${answer.status}: ${answer.body.slice(0, 300)}`);
       }
       assert.equal((await get(daemon.port, '/livez')).status, 200);
-    }, { inShell: `ulimit -v ${Math.round((atRest + more * MiB) / 1024)}` });
+    });
   assert.ok(statuses.has(503), 'memory never ended: the test tests nothing');
 });
 
