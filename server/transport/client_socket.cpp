@@ -57,10 +57,10 @@ ClientSocket::Outcome ClientSocket::wait_for(short event, Clock::time_point dead
 }
 
 ClientSocket::Outcome ClientSocket::wait_for(short event, TransferTime& time) const {
-  for (;;) {
-    const Outcome outcome = wait_for(event, time.next_look());
-    if (outcome != Outcome::timed_out || time.is_over()) return outcome;
-  }
+  while (!time.is_over())  // also where a byte comes now and then
+    if (const Outcome outcome = wait_for(event, time.next_look()); outcome != Outcome::timed_out)
+      return outcome;
+  return Outcome::timed_out;
 }
 
 ClientSocket::Outcome ClientSocket::wait_readable(Clock::time_point deadline) const {

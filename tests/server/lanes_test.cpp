@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -82,6 +83,23 @@ TEST(Lanes, ends_slow_bodies_for_those_who_wait) {
     EXPECT_EQ(std::count(statuses.begin(), statuses.end(), 503), 1);
     EXPECT_EQ(std::count(statuses.begin(), statuses.end(), 200), 1);
   }
+}
+// A byte now and then was no reason to look at the time.
+TEST(Lanes, ends_bodies_that_drip_for_those_who_wait) {
+  const RunningTransport server(two_threads());
+  const Clients busy = send_from_two(
+      server.port, "POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 99999\r\n\r\nabc");
+  ASSERT_TRUE(both_threads_are_taken(server));
+  std::atomic<bool> served = false;
+  std::thread drip([&] {
+    while (!served) {
+      for (const auto& client : busy) client->send("x");
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+  });
+  EXPECT_EQ(ask(server.port, get("/a")).status, 200);
+  served = true;
+  drip.join();
 }
 TEST(Lanes, ends_slow_readers_for_those_who_wait) {
   RunningTransport server(two_threads());
