@@ -87,8 +87,8 @@ TEST(Lanes, ends_slow_bodies_for_those_who_wait) {
 // A byte now and then was no reason to look at the time.
 TEST(Lanes, ends_bodies_that_drip_for_those_who_wait) {
   const RunningTransport server(two_threads());
-  const Clients busy = send_from_two(
-      server.port, "POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 99999\r\n\r\nabc");
+  const Clients busy =
+      send_from_two(server.port, "POST /size HTTP/1.1\r\nHost: a\r\nContent-Length: 99999\r\n\r\nabc");
   ASSERT_TRUE(both_threads_are_taken(server));
   std::atomic<bool> served = false;
   std::thread drip([&] {
