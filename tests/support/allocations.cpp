@@ -30,7 +30,6 @@ std::int64_t Allocations::peak_bytes() const { return peak; }
 
 }  // namespace subdivd::test
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace {
 
 // The block, or null when it is to fail.
@@ -78,4 +77,3 @@ void operator delete(void* block) noexcept { release(block); }
 void operator delete(void* block, std::size_t) noexcept { release(block); }
 void operator delete(void* block, std::align_val_t) noexcept { release(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { release(block); }
-#endif

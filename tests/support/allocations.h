@@ -6,13 +6,6 @@
 
 namespace subdivd::test {
 
-// Under a sanitizer, which has an operator new of its own, nothing is counted and nothing fails.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kCountsAllocations = false;
-#else
-inline constexpr bool kCountsAllocations = true;
-#endif
-
 // Counts as long as it lives; one at a time. Blocks from before must not be freed meanwhile, by any thread.
 class Allocations {
  public:
