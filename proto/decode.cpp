@@ -76,25 +76,23 @@ void override_meshes(RefineRequest& request) {
 // Refining curves and surfaces takes, beside what comes out, less than that again for the levels in between.
 constexpr Count kPassingFactor = 2;
 
-// What finding out about a mesh takes at most, before more than its sizes is known: its adjacency and rules,
-// those of its channels, and of its render meshes. Measured on closed meshes, separate triangles, hubs and
-// many channels.
-constexpr Count kPlanBytesPerFace = 336, kPlanBytesPerPoint = 64;
-
-Count plan_bytes(const ControlMesh& mesh) {
-  const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, [](const Primvar& primvar) {
-    return primvar.interpolation == Interpolation::face_varying;
-  }));
-  return (kPlanBytesPerFace * mesh.face_count() + kPlanBytesPerPoint * mesh.point_count()) *
-         (1 + channels + (mesh.render_meshes.empty() ? 0 : 1));
+Result<std::vector<Plan>> plan_meshes(const RefineRequest& request, const Budget& budget) {
+  std::vector<Plan> plans;
+  plans.reserve(request.meshes.size());
+  for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+    Result<Plan> plan = Plan::build(request.meshes[i], plan_options(mesh_options(request)), budget);
+    if (!plan) return blame_input(request, plan.error(), "meshes", i);
+    plans.push_back(*std::move(plan));
+  }
+  return plans;
 }
 
 template <class Real>
-Result<Count> working_bytes(const RefineRequest& request, std::vector<RefinedSize>& sizes,
-                            const Budget& budget) {
+Result<Count> working_bytes(const RefineRequest& request, const std::vector<Plan>& plans,
+                            std::vector<RefinedSize>& sizes, const Budget& budget) {
   Count bytes = 0;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    Result<RefinedSize> size = predict_size<Real>(request.meshes[i], mesh_options(request), budget);
+    Result<RefinedSize> size = predict_size<Real>(request.meshes[i], plans[i], mesh_options(request), budget);
     if (!size) return blame_input(request, size.error(), "meshes", i);
     bytes += size->bytes + size->working_bytes;
     sizes.push_back(std::move(*size));
@@ -141,12 +139,15 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
 Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits, const Budget& budget) {
   std::vector<RefinedSize> sizes;
   Prediction prediction;
-  for (const ControlMesh& mesh : request.meshes)  // one after the other, so the largest
-    prediction.taken_bytes = std::max(prediction.taken_bytes, plan_bytes(mesh));
+  for (const ControlMesh& mesh : request.meshes)
+    prediction.taken_bytes += plan_bytes(mesh, plan_options(mesh_options(request)));
   if (Result<void> taken = budget.take_memory(prediction.taken_bytes); !taken) return taken.error();
+  Result<std::vector<Plan>> plans = plan_meshes(request, budget);
+  if (!plans) return plans.error();
+  prediction.plans = *std::move(plans);
   const Result<Count> working = answer_precision(request) == Precision::single_precision
-                                    ? working_bytes<float>(request, sizes, budget)
-                                    : working_bytes<double>(request, sizes, budget);
+                                    ? working_bytes<float>(request, prediction.plans, sizes, budget)
+                                    : working_bytes<double>(request, prediction.plans, sizes, budget);
   if (!working) return working.error();
   prediction.working_bytes = *working;
   const Result<Count> answer = answer_format(request) == Format::json

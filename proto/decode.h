@@ -9,6 +9,7 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
+#include "core/refine/plan.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto {
@@ -32,9 +33,10 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
 // Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for the JSON
 // text. Refuses what exceeds the limits (too_large with predicted and allowed).
 struct Prediction {
+  std::vector<Plan> plans;  // of the meshes: what it follows from, and what they are to be refined by
   Count answer_bytes = 0;   // of the body that will be sent (upper bound)
-  Count working_bytes = 0;  // of the arrays of the core, and what it needs beside them
-  Count taken_bytes = 0;    // of both together: taken from the budget already, for predicting
+  Count working_bytes = 0;  // of the arrays of the core, and what it needs beside them, plans included
+  Count taken_bytes = 0;    // of both together: taken from the budget already, for the plans
 };
 Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits,
                                   const Budget& budget = {});

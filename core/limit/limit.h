@@ -15,12 +15,6 @@
 
 namespace subdivd {
 
-// A mesh or channel at some level.
-struct Sharp {
-  const Topology& topology;
-  const Sharpness& sharpness;
-};
-
 // Tangents and normal of the surface on one side of a vertex: of a sector, the faces between two sharp edges.
 template <class Real>
 struct Frame {
@@ -55,13 +49,6 @@ struct Ring {
   // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
   void set_faces(const Topology& topology, Index v, const Pace& pace = {});
 };
-
-// The ring of vertex v. `values`: width scalars per vertex of the topology. For a channel, `mesh` is the mesh
-// over the same faces at the same level, whose edges decide how sharpness decays; for the mesh itself the two
-// are the same.
-template <class Real>
-Ring<Real> ring_of(CreaseMethod method, const Sharp& own, const Sharp& mesh, Index v,
-                   std::span<const Real> values, Index width);
 
 // A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see
 // core/schemes/scheme.h.

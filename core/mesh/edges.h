@@ -1,5 +1,5 @@
 #pragma once
-// The edges of a triangle mesh: which half-edges (topology.h) run along the same one.
+// The edges of a triangle mesh: which half-edges (connectivity.h) run along the same one.
 
 #include <array>
 #include <span>

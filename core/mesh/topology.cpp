@@ -7,7 +7,7 @@
 namespace subdivd {
 
 Topology::Topology(Index vertex_count, std::vector<Index> triangles, const Pace& pace)
-    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
+    : Connectivity(WithoutEdges{}, vertex_count, std::move(triangles)) {
   Buffer<Index> first_corners = count_corners(pace);
   edges_ = find_edges(vertex_count_, triangles_, vertex_corner_offsets_, pace);
   connect(std::move(first_corners), pace);
@@ -20,7 +20,7 @@ Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangle
 
 Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
                    Buffer<std::array<Index, 2>> edge_vertices)
-    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
+    : Connectivity(WithoutEdges{}, vertex_count, std::move(triangles)) {
   edges_.of_half_edges = std::move(half_edge_edges);
   edges_.vertices = std::move(edge_vertices);
   edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
@@ -49,7 +49,7 @@ Buffer<Index> Topology::count_corners(const Pace& pace) {
 }
 
 void Topology::connect(Buffer<Index> first_corners, const Pace& pace) {
-  gather_crowds(pace);
+  gather_non_manifold_half_edges(pace);
   count_edges(first_corners, pace);
   go_round_vertices(first_corners, pace);
   go_round_borders(pace);
@@ -57,31 +57,34 @@ void Topology::connect(Buffer<Index> first_corners, const Pace& pace) {
 }
 
 // The half-edges of the non-manifold edges, edge by edge, sorted by counting.
-void Topology::gather_crowds(const Pace& pace) {
-  const std::vector<Index>& crowded = edges_.non_manifold;
-  if (crowded.empty()) return;
-  Buffer<Index> row_of;  // of edges; set for the crowded ones
+void Topology::gather_non_manifold_half_edges(const Pace& pace) {
+  const std::vector<Index>& edges = edges_.non_manifold;
+  if (edges.empty()) return;
+  Buffer<Index> row_of;  // of edges; set for the non-manifold ones
   row_of.resize(edge_count());
-  pace.for_each(static_cast<Index>(crowded.size()), [&](Index k) { row_of[crowded[k]] = k; });
-  pace.fill(crowd_offsets_, crowded.size() + 1, 0);
+  pace.for_each(static_cast<Index>(edges.size()), [&](Index k) { row_of[edges[k]] = k; });
+  pace.fill(non_manifold_offsets_, edges.size() + 1, 0);
   const auto half_edges = static_cast<Index>(triangles_.size());
   pace.for_each(half_edges, [&](Index h) {
-    if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e)) ++crowd_offsets_[row_of[e] + 1];
+    if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e))
+      ++non_manifold_offsets_[row_of[e] + 1];
   });
-  pace.for_each(crowded.size(), [&](std::size_t k) { crowd_offsets_[k + 1] += crowd_offsets_[k]; });
+  pace.for_each(edges.size(),
+                [&](std::size_t k) { non_manifold_offsets_[k + 1] += non_manifold_offsets_[k]; });
   std::vector<Index> ends;
-  pace.copy(crowd_offsets_, ends);
-  pace.fill(crowd_half_edges_, crowd_offsets_.back(), 0);
+  pace.copy(non_manifold_offsets_, ends);
+  pace.fill(non_manifold_half_edges_, non_manifold_offsets_.back(), 0);
   pace.for_each(half_edges, [&](Index h) {
     if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e))
-      crowd_half_edges_[ends[row_of[e]]++] = h;
+      non_manifold_half_edges_[ends[row_of[e]]++] = h;
   });
 }
 
-std::span<const Index> Topology::crowd_of(Index e) const {
-  const std::vector<Index>& crowded = edges_.non_manifold;
-  const auto k = static_cast<std::size_t>(std::ranges::lower_bound(crowded, e) - crowded.begin());
-  return std::span(crowd_half_edges_).subspan(crowd_offsets_[k], crowd_offsets_[k + 1] - crowd_offsets_[k]);
+std::span<const Index> Topology::half_edges_of_non_manifold(Index e) const {
+  const std::vector<Index>& edges = edges_.non_manifold;
+  const auto k = static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin());
+  return std::span(non_manifold_half_edges_)
+      .subspan(non_manifold_offsets_[k], non_manifold_offsets_[k + 1] - non_manifold_offsets_[k]);
 }
 
 // Sets the lengths of the rows of edges from those of corners, finds the ends of non-manifold edges, and

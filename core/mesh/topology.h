@@ -1,14 +1,6 @@
 #pragma once
-// Edges and adjacency of a triangle mesh of any kind, manifold or not. The only code that knows half-edges.
-//
-// A half-edge h = 3 f + k runs from corner k to corner k + 1 of face f; the same number names the corner of
-// face f that it leaves, whose vertex is triangles()[h].
-//
-//          v2          next(h): the following half-edge of the face
-//         /  ^         prev(h): the one before
-//     h+2/    \h+1
-//       v  h   \       Around v0 counter-clockwise: the face lies between the edge of h and the edge of
-//     v0 -----> v1     prev(h); the next face around v0 lies across the edge of prev(h).
+// What touches what in a triangle mesh of any kind, manifold or not. The only code that goes round vertices
+// by half-edges; connectivity.h says what those are.
 
 #include <algorithm>
 #include <array>
@@ -22,11 +14,11 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/base/result.h"
-#include "core/mesh/edges.h"
+#include "core/mesh/connectivity.h"
 
 namespace subdivd {
 
-class Topology {
+class Topology : public Connectivity {
  public:
   Topology() = default;
   // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed). Edges
@@ -40,25 +32,9 @@ class Topology {
   Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
            Buffer<std::array<Index, 2>> edge_vertices);
 
-  Index vertex_count() const { return vertex_count_; }
-  Index edge_count() const { return edges_.count(); }
-  Index face_count() const { return static_cast<Index>(triangles_.size() / 3); }
-
-  std::span<const Index> triangles() const { return triangles_; }
-  std::span<const Index> half_edge_edges() const { return edges_.of_half_edges; }
-  std::span<const std::array<Index, 2>> edge_vertices() const { return edges_.vertices; }
-  // Per edge the half-edge that runs from its lower end, and the other; kNoIndex: none.
-  std::span<const std::array<Index, 2>> edge_sides() const { return edges_.sides; }
-  Index corner_vertex(Index h) const { return triangles_[h]; }
-  Index half_edge_edge(Index h) const { return edges_.of_half_edges[h]; }
-  // The two ends, the lower-numbered first.
-  std::array<Index, 2> edge_vertices(Index e) const { return edges_.vertices[e]; }
-  Index other_end(Index e, Index v) const {
-    return edges_.vertices[e][0] == v ? edges_.vertices[e][1] : edges_.vertices[e][0];
-  }
   // Half-edges along e: of a manifold edge the one that runs from the lower end first, of others ascending.
   std::span<const Index> edge_half_edges(Index e) const {
-    if (is_non_manifold_edge(e)) return crowd_of(e);
+    if (is_non_manifold_edge(e)) return half_edges_of_non_manifold(e);
     const auto& sides = edges_.sides[e];
     if (!is_boundary(e)) return sides;
     return {&sides[sides[0] == kNoIndex ? 1 : 0], 1};
@@ -75,24 +51,9 @@ class Topology {
   std::span<const Index> all_vertex_edges() const { return vertex_edges_; }
   std::span<const Index> vertex_edge_offsets() const { return vertex_edge_offsets_; }
 
-  std::span<const EdgeKind> edge_kinds() const { return edges_.kinds; }
-  bool is_boundary(Index e) const { return edges_.kinds[e] == EdgeKind::border; }
-  // More than two faces, or two that run along the edge in the same direction (their windings clash).
-  bool is_non_manifold_edge(Index e) const { return edges_.kinds[e] == EdgeKind::non_manifold; }
   // An end of a non-manifold edge, or a point where several fans of faces meet (a bow tie).
   bool is_non_manifold_vertex(Index v) const { return non_manifold_vertices_[v] != 0; }
   std::span<const unsigned char> non_manifold_vertices() const { return non_manifold_vertices_; }
-
-  // The half-edge on the other side of h, leaving the vertex that h enters; kNoIndex at a boundary or
-  // non-manifold edge.
-  Index mate(Index h) const {
-    const Index e = edges_.of_half_edges[h];
-    return edges_.kinds[e] == EdgeKind::manifold ? across(e, h) : kNoIndex;
-  }
-
-  // Branch-free: which corner of its face it is cannot be predicted.
-  static Index next(Index h) { return h + 1 - 3 * static_cast<Index>(h % 3 == 2); }
-  static Index prev(Index h) { return h - 1 + 3 * static_cast<Index>(h % 3 == 0); }
 
   // The corners at v in fans: faces follow each other counter-clockwise across edges for which passable(edge)
   // is true and that two faces share in agreement. A fan that closes on itself starts at the lowest of its
@@ -140,25 +101,20 @@ class Topology {
   class Walk;
   void connect(Buffer<Index> first_corners, const Pace& pace);
   Buffer<Index> count_corners(const Pace& pace);
-  void gather_crowds(const Pace& pace);
+  void gather_non_manifold_half_edges(const Pace& pace);
   void count_edges(std::span<Index> first_corners, const Pace& pace);
   void go_round_vertices(std::span<const Index> first_corners, const Pace& pace);
   void go_round_borders(const Pace& pace);
   void list_non_manifold(const Pace& pace);
-  std::span<const Index> crowd_of(Index e) const;
-  // The other of two half-edges along e; kNoIndex at a border.
-  Index across(Index e, Index h) const { return edges_.sides[e][0] ^ edges_.sides[e][1] ^ h; }
+  std::span<const Index> half_edges_of_non_manifold(Index e) const;
   template <class Passable>
   Fans fans_of_one(Index v, Passable passable, const Pace& pace) const;
   template <class Passable>
   Fans scattered_fans(Index v, Passable passable, const Pace& pace) const;
 
-  Index vertex_count_ = 0;
-  std::vector<Index> triangles_;
-  Edges edges_;
   Buffer<Index> vertex_edges_, vertex_edge_offsets_, vertex_corners_, vertex_corner_offsets_;
   std::vector<unsigned char> non_manifold_vertices_;
-  std::vector<Index> crowd_half_edges_, crowd_offsets_;  // of the non-manifold edges
+  std::vector<Index> non_manifold_half_edges_, non_manifold_offsets_;  // of the non-manifold edges
 };
 
 // Cuts the fan that the vertex has at the edges that may not be passed.

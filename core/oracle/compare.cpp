@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/oracle/correspondence.h"
-#include "core/oracle/tally.h"
+#include "core/oracle/deviation_meter.h"
 #include "core/oracle/vectors.h"
 #include "core/refine/split.h"
 
@@ -35,7 +35,7 @@ struct Sides {
   Poller& poller;
   double value_tolerance = 0;  // of primvars, and of positions near the origin
 
-  Tally tally(std::string quantity, double unit_size, double tolerance) const {
+  DeviationMeter meter(std::string quantity, double unit_size, double tolerance) const {
     return {std::move(quantity), unit_size, tolerance, static_cast<double>(segments(far.level))};
   }
   Site site(Index our_vertex) const { return {our_vertex, ours.provenance[our_vertex]}; }
@@ -84,17 +84,17 @@ Deviation compare_points(const Sides<Real>& sides, const char* quantity, std::sp
   const double tolerance = sides.value_tolerance * sides.scale.remoteness;
   if (ours.size() != 3 * sides.ours.provenance.size() || far.size() != 3 * sides.far.vertices.size())
     return incomparable(quantity, tolerance);
-  Tally tally = sides.tally(quantity, sides.scale.diagonal, tolerance);
+  DeviationMeter meter = sides.meter(quantity, sides.scale.diagonal, tolerance);
   sides.for_each_pair([&](Index f, Index v) {
     const char* objection = limit ? limit_objection(sides.far.vertices[f]) : nullptr;
-    if (objection != nullptr) return tally.except(objection);
+    if (objection != nullptr) return meter.except(objection);
     Vector difference = vector_at<Real>(ours, v);
     const Vector other = vector_at<Real>(far, f);
     for (std::size_t k = 0; k < 3; ++k)
       difference[k] = difference[k] / sides.scale.diagonal - other[k] / sides.scale.diagonal;
-    tally.add(std::sqrt(dot(difference, difference)), sides.site(v));
+    meter.add(std::sqrt(dot(difference, difference)), sides.site(v));
   });
-  return tally.finish();
+  return meter.finish();
 }
 
 template <class Real>
@@ -104,24 +104,24 @@ Deviation compare_normals(const Sides<Real>& sides) {
   if (sides.ours.normals.size() != 3 * sides.ours.provenance.size() || far.tangents_u.size() != size ||
       far.tangents_v.size() != size)
     return incomparable("normals", normal_tolerance<Real>());
-  Tally tally = sides.tally("normals", 1, normal_tolerance<Real>());
+  DeviationMeter meter = sides.meter("normals", 1, normal_tolerance<Real>());
   // Tangents are differences of coordinates: they round by epsilon times the coordinates' size, which turns
   // the normal by about rounding (|u| + |v|) / |u x v|. Where that alone may be half the tolerance, nothing
   // is said.
   const double rounding = double{std::numeric_limits<Real>::epsilon()} * sides.scale.diagonal *
                           sides.scale.remoteness * 2 / (normal_tolerance<Real>() * std::numbers::pi / 180);
   sides.for_each_pair([&](Index f, Index v) {
-    if (const char* objection = normal_objection(far.vertices[f])) return tally.except(objection);
+    if (const char* objection = normal_objection(far.vertices[f])) return meter.except(objection);
     const Vector ours = vector_at<Real>(sides.ours.normals, v);
     const Vector u = vector_at<Real>(far.tangents_u, f), v_across = vector_at<Real>(far.tangents_v, f);
     const Vector theirs = cross(unit(u), unit(v_across));
     const double sine = std::sqrt(dot(theirs, theirs));
     // |u x v| / (|u| + |v|) in a form that neither over- nor underflows.
     const double height = sine / (1 / length(u) + 1 / length(v_across));
-    if (dot(ours, ours) == 0 || !(height > rounding)) return tally.except(kNoNormal);
-    tally.add(degrees_between(ours, unit(theirs)), sides.site(v));
+    if (dot(ours, ours) == 0 || !(height > rounding)) return meter.except(kNoNormal);
+    meter.add(degrees_between(ours, unit(theirs)), sides.site(v));
   });
-  return tally.finish();
+  return meter.finish();
 }
 
 // The largest difference of a component, in units of `scale`. A NaN wins.
@@ -219,18 +219,18 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
     return incomparable(quantity, tolerance);
 
   const double scale = primvar_scale(control, sides.poller);
-  Tally tally = sides.tally(quantity, scale, tolerance);
+  DeviationMeter meter = sides.meter(quantity, scale, tolerance);
   const std::size_t width = control.element_size;
   for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
     const char* objection =
         limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
     if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
-    if (objection != nullptr) return tally.except(objection);
+    if (objection != nullptr) return meter.except(objection);
     sides.poller.spend(width);
-    tally.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
+    meter.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
               site);
   });
-  return tally.finish();
+  return meter.finish();
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "core/oracle/compare.h"
-#include "core/oracle/tally.h"
+#include "core/oracle/deviation_meter.h"
 #include "core/refine/split.h"
 
 namespace subdivd::oracle {
@@ -15,14 +15,14 @@ Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, 
                          bool trimmed, Poller& poller) {
   const Count n = segments(ours.level);
   const Count skipped = ours.wrap == CurveWrap::nonperiodic ? n - 1 : 0;
-  Tally tally(quantity, scale.diagonal, value_tolerance<Real>() * scale.remoteness, 1);
+  DeviationMeter meter(quantity, scale.diagonal, value_tolerance<Real>() * scale.remoteness, 1);
   Count our_first = 0, far_first = 0;
   for (Index c = 0; c < ours.vertex_counts.size(); ++c) {
     const Index count = ours.vertex_counts[c];
     for (Index i = 0; i < count; ++i) {
       poller.spend(8 + ours.width);
       if (trimmed && (i == 0 || i + 1 == count)) {
-        tally.except("the first and last point of a nonperiodic curve begin no segment");
+        meter.except("the first and last point of a nonperiodic curve begin no segment");
         continue;
       }
       double square = 0;
@@ -33,12 +33,12 @@ Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, 
         square += difference * difference;
       }
       Site site{static_cast<Index>(our_first + i), {}};
-      tally.add(std::sqrt(square), site);
+      meter.add(std::sqrt(square), site);
     }
     our_first += count;
     far_first += far.counts[c];
   }
-  return tally.finish();
+  return meter.finish();
 }
 
 template <class Real>

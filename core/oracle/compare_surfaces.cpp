@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/oracle/compare.h"
-#include "core/oracle/tally.h"
+#include "core/oracle/deviation_meter.h"
 #include "core/oracle/vectors.h"
 #include "core/refine/split.h"
 
@@ -30,7 +30,7 @@ struct Sides {
   PointScale scale;
   Poller& poller;
 
-  Tally tally(const char* quantity, double unit_size, double tolerance) const {
+  DeviationMeter meter(const char* quantity, double unit_size, double tolerance) const {
     return {quantity, unit_size, tolerance, 1};
   }
   Count points() const { return Count{ours.u_count} * ours.v_count; }
@@ -149,18 +149,18 @@ template <class Real>
 Deviation compare_points(const Sides<Real>& sides, const char* quantity, const Buffer<Real>& ours,
                          const Buffer<double>& far, bool limit) {
   const double diagonal = sides.scale.diagonal;
-  Tally tally = sides.tally(quantity, diagonal, value_tolerance<Real>() * sides.scale.remoteness);
+  DeviationMeter meter = sides.meter(quantity, diagonal, value_tolerance<Real>() * sides.scale.remoteness);
   const std::size_t width = sides.ours.width;
   sides.for_each_pair([&](Count v, Count f, bool beyond) {
-    if (limit && beyond) return tally.except(kBeyond);
+    if (limit && beyond) return meter.except(kBeyond);
     double square = 0;
     for (std::size_t k = 0; k < width; ++k) {
       const double difference = double{ours[v * width + k]} / diagonal - far[f * width + k] / diagonal;
       square += difference * difference;
     }
-    tally.add(std::sqrt(square), Site{static_cast<Index>(v), {}});
+    meter.add(std::sqrt(square), Site{static_cast<Index>(v), {}});
   });
-  return tally.finish();
+  return meter.finish();
 }
 
 // How long |u x v| / (|u| + |v|) must be at least for a normal that is worth comparing. Tangents are
@@ -177,23 +177,23 @@ double least_height(const PointScale& scale) {
 
 template <class Real>
 Deviation compare_normals(const Sides<Real>& sides) {
-  Tally tally = sides.tally("normals", 1, normal_tolerance<Real>());
+  DeviationMeter meter = sides.meter("normals", 1, normal_tolerance<Real>());
   const double least = least_height<Real>(sides.scale);
   sides.for_each_pair([&](Count at, Count f, bool beyond) {
-    if (beyond) return tally.except(kBeyond);
+    if (beyond) return meter.except(kBeyond);
     const Vector u = vector_at<double>(sides.far.u_tangents, f);
     const Vector v = vector_at<double>(sides.far.v_tangents, f);
-    if (!std::isfinite(length(u)) || !std::isfinite(length(v))) return tally.except(kOverflow);
+    if (!std::isfinite(length(u)) || !std::isfinite(length(v))) return meter.except(kOverflow);
     const Vector theirs = cross(unit(u), unit(v));
     // |u x v| / (|u| + |v|) in a form that neither over- nor underflows.
     const double height = length(theirs) / (1 / length(u) + 1 / length(v));
-    if (!(height > least)) return tally.except(kNoNormal);
+    if (!(height > least)) return meter.except(kNoNormal);
     const Vector ours = vector_at<Real>(sides.ours.normals, at);
     // Where the surface has a normal, none at all is as wrong as can be. 1e-3: far more than rounding takes.
     const bool is_unit = std::abs(length(ours) - 1) < 1e-3;
-    tally.add(is_unit ? degrees_between(ours, unit(theirs)) : 180, Site{static_cast<Index>(at), {}});
+    meter.add(is_unit ? degrees_between(ours, unit(theirs)) : 180, Site{static_cast<Index>(at), {}});
   });
-  return tally.finish();
+  return meter.finish();
 }
 
 // The quad of the control grid along one direction.

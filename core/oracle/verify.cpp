@@ -19,8 +19,8 @@ void remark_sharpness(const ControlMesh& mesh, MeshReport& report, Poller& polle
 }
 
 template <class Real>
-Result<MeshReport> compare_levels(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget,
-                                  Poller& poller) {
+Result<MeshReport> compare_levels(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
+                                  const Budget& budget, Poller& poller) {
   auto far_mesh = FarMesh::build(mesh, options.crease_method, options.level, budget);
   if (!far_mesh) return far_mesh.error();
   MeshReport report;
@@ -33,7 +33,7 @@ Result<MeshReport> compare_levels(const ControlMesh& mesh, const RefineOptions& 
     step.connectivity = step.provenance = true;  // what is matched
     const auto far = far_mesh->refine<Real>(step, budget);
     if (!far) return far.error();
-    const auto ours = refine<Real>(mesh, step, budget);
+    const auto ours = refine<Real>(mesh, plan, step, budget);
     if (!ours) return ours.error();
     report.levels.push_back(compare(mesh, *ours, *far, poller));
   }
@@ -53,7 +53,8 @@ std::string oracle_name() {
 }
 
 template <class Real>
-Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget) {
+Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
+                          const Budget& budget) {
   if (options.loop_weights != LoopWeights::loop)
     return Error{ErrorCode::unsupported,
                  "OpenSubdiv knows Loop's own weights only; verification needs loopWeights \"loop\"",
@@ -62,10 +63,21 @@ Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options,
                  0};
   return stoppable([&] {
     Poller poller(budget);
-    return compare_levels<Real>(mesh, options, budget, poller);
+    return compare_levels<Real>(mesh, plan, options, budget, poller);
   });
 }
 
+template <class Real>
+Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget) {
+  const auto plan = Plan::build(mesh, plan_options(options), budget);
+  if (!plan) return plan.error();
+  return verify<Real>(mesh, *plan, options, budget);
+}
+
+template Result<MeshReport> verify<float>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                          const Budget&);
+template Result<MeshReport> verify<double>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                           const Budget&);
 template Result<MeshReport> verify<float>(const ControlMesh&, const RefineOptions&, const Budget&);
 template Result<MeshReport> verify<double>(const ControlMesh&, const RefineOptions&, const Budget&);
 

@@ -18,14 +18,18 @@ namespace subdivd::oracle {
 // "OpenSubdiv 3.5.0 Far": whom the report quotes.
 std::string oracle_name();
 
-// Compares levels 1..options.level (level 0 when that is asked for), at most kMaxFarLevel. `mesh` must have
-// passed check(): Far itself checks nothing. Limits and normals are compared when options ask for them, and
-// left out, counted and named where Far is no witness: where semi-sharpness is left (Far takes it for
-// infinite), at darts (its masks do not know the crease), and for normals where the surface has several sides
-// or Far's tangent is not the surface's: see compare.cpp. Tolerances of max_relative: 1e-12 (double), 2e-6
-// (float); normals 0.01 degrees (double), 0.5 (float); limits of face-varying primvars 1e-7 (Far's masks for
-// them are single precision). options.loop_weights must be `loop` (Far knows no other): `unsupported`
-// otherwise.
+// `plan`: of the mesh, for options.level at least. Compares levels 1..options.level (level 0 when that is
+// asked for), at most kMaxFarLevel. `mesh` must have passed check(): Far itself checks nothing. Limits and
+// normals are compared when options ask for them, and left out, counted and named where Far is no witness:
+// where semi-sharpness is left (Far takes it for infinite), at darts (its masks do not know the crease), and
+// for normals where the surface has several sides or Far's tangent is not the surface's: see compare.cpp.
+// Tolerances of max_relative: 1e-12 (double), 2e-6 (float); normals 0.01 degrees (double), 0.5 (float);
+// limits of face-varying primvars 1e-7 (Far's masks for them are single precision). options.loop_weights must
+// be `loop` (Far knows no other): `unsupported` otherwise.
+template <class Real>
+Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
+                          const Budget& budget);
+// With a plan of its own.
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget);
 

@@ -2,6 +2,7 @@
 // A control net: the mesh, or one face-varying channel of it, as the engine sees it. Base vertices and base
 // edges carry all the rules there are; the inside of every base face is regular and smooth.
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,6 +41,12 @@ struct SemiSharp {
   }
   float vertex(Index v) const;  // 0 when it is not listed
 };
+
+// What sharpness takes that varies along so many edges, at most: twice as many numbers at every level, until
+// even the sharpest have run out.
+inline Count chaikin_bytes(Count edges, Index max_level) {
+  return edges * sizeof(float) << (2 + std::min(max_level + 1, static_cast<Index>(kInfiniteSharpness) + 1));
+}
 
 class Net {
  public:

@@ -4,21 +4,21 @@
 #include <array>
 
 #include "core/base/index.h"
-#include "core/mesh/topology.h"
+#include "core/mesh/connectivity.h"
 #include "core/refine/split.h"
 
 namespace subdivd {
 
 class Numbering {
  public:
-  Numbering(const Topology& topology, Index level)
-      : topology_(&topology),
+  Numbering(const Connectivity& connectivity, Index level)
+      : connectivity_(&connectivity),
         n_(segments(level)),
-        edge_begin_(topology.vertex_count()),
-        face_begin_(edge_begin_ + topology.edge_count() * (n_ - 1)) {}
+        edge_begin_(connectivity.vertex_count()),
+        face_begin_(edge_begin_ + connectivity.edge_count() * (n_ - 1)) {}
 
   Count segment_count() const { return n_; }
-  Count vertex_count() const { return face_begin_ + topology_->face_count() * inner_points(n_); }
+  Count vertex_count() const { return face_begin_ + connectivity_->face_count() * inner_points(n_); }
 
   // Vertex at grid point (i, j) of `face`; faces that share an edge agree about the points on it.
   Index vertex(Index face, Count i, Count j) const {
@@ -31,15 +31,15 @@ class Numbering {
 
   // The k-th point of base edge e from its lower-numbered end, 0..n.
   Index along(Index e, Count k) const {
-    if (k == 0) return topology_->edge_vertices(e)[0];
-    if (k == n_) return topology_->edge_vertices(e)[1];
+    if (k == 0) return connectivity_->edge_vertices(e)[0];
+    if (k == n_) return connectivity_->edge_vertices(e)[1];
     return static_cast<Index>(edge_begin_ + e * (n_ - 1) + k - 1);
   }
 
   // The six neighbours of point k inside an edge of two faces, counter-clockwise from the next point along
   // the edge.
   std::array<Index, 6> ring_on_edge(Index e, Count k) const {
-    const auto [left, right] = topology_->edge_sides()[e];
+    const auto [left, right] = connectivity_->edge_sides()[e];
     return {along(e, k + 1), beside(left, k),       beside(left, k - 1),
             along(e, k - 1), beside(right, n_ - k), beside(right, n_ - 1 - k)};
   }
@@ -75,14 +75,14 @@ class Numbering {
   // The point `k` segments from corner `corner` towards the next corner.
   Index on_edge(Index face, Index corner, Count k) const {
     const Index h = 3 * face + corner;
-    if (k == 0) return topology_->corner_vertex(h);
-    if (k == n_) return topology_->corner_vertex(Topology::next(h));
-    const Index e = topology_->half_edge_edge(h);
-    const Count from_low = topology_->edge_vertices(e)[0] == topology_->corner_vertex(h) ? k : n_ - k;
+    if (k == 0) return connectivity_->corner_vertex(h);
+    if (k == n_) return connectivity_->corner_vertex(Connectivity::next(h));
+    const Index e = connectivity_->half_edge_edge(h);
+    const Count from_low = connectivity_->edge_vertices(e)[0] == connectivity_->corner_vertex(h) ? k : n_ - k;
     return static_cast<Index>(edge_begin_ + e * (n_ - 1) + from_low - 1);
   }
 
-  const Topology* topology_;
+  const Connectivity* connectivity_;
   Count n_, edge_begin_, face_begin_;
 };
 
@@ -91,17 +91,18 @@ class Numbering {
 struct FaceNumbers {
   Index corner[3], side[3], step[3], inside;
 
-  FaceNumbers(const Topology& topology, Count n, Index face) {
-    const Index edge_begin = topology.vertex_count();
+  FaceNumbers(const Connectivity& connectivity, Count n, Index face) {
+    const Index edge_begin = connectivity.vertex_count();
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * face + k;
-      corner[k] = topology.corner_vertex(h);
-      const Index first = static_cast<Index>(edge_begin + Count{topology.half_edge_edge(h)} * (n - 1));
-      const bool forward = corner[k] < topology.corner_vertex(Topology::next(h));
+      corner[k] = connectivity.corner_vertex(h);
+      const Index first = static_cast<Index>(edge_begin + Count{connectivity.half_edge_edge(h)} * (n - 1));
+      const bool forward = corner[k] < connectivity.corner_vertex(Connectivity::next(h));
       side[k] = forward ? first : static_cast<Index>(first + n - 2);
       step[k] = forward ? 1 : static_cast<Index>(-1);
     }
-    inside = static_cast<Index>(edge_begin + Count{topology.edge_count()} * (n - 1) + face * inner_points(n));
+    inside =
+        static_cast<Index>(edge_begin + Count{connectivity.edge_count()} * (n - 1) + face * inner_points(n));
   }
 };
 

@@ -1,5 +1,6 @@
 #include "core/refine/plan.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -21,6 +22,29 @@ std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar
 
 }  // namespace
 
+Result<void> check_level(Index level) {
+  if (level <= kMaxLevel) return {};
+  return Error{
+      ErrorCode::out_of_range, "level must be 0 to " + std::to_string(kMaxLevel), {}, level, kMaxLevel};
+}
+
+// Measured on closed meshes, separate triangles, hubs and many channels.
+constexpr Count kBytesPerFace = 336, kBytesPerPoint = 64;
+
+Count plan_bytes(const ControlMesh& mesh, const PlanOptions& options) {
+  const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, [](const Primvar& primvar) {
+    return primvar.interpolation == Interpolation::face_varying;
+  }));
+  const Count nets = 1 + channels;
+  Count bytes = (kBytesPerFace * mesh.face_count() + kBytesPerPoint * mesh.point_count()) *
+                (nets + (mesh.render_meshes.empty() ? 0 : 1));
+  if (options.crease_method == CreaseMethod::chaikin) {
+    const Count edges = std::min<Count>(mesh.crease_indices.size(), 3 * mesh.face_count());
+    bytes += nets * chaikin_bytes(edges, options.max_level);
+  }
+  return bytes;
+}
+
 Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, const Budget& budget) {
   std::optional<AnyScheme> scheme;
   visit_scheme(mesh.subdivision_scheme,
@@ -31,6 +55,7 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
                  {"subdivisionScheme"},
                  0,
                  0};
+  if (auto allowed = check_level(options.max_level); !allowed) return std::move(allowed).error();
   return stoppable(budget, [&](const Pace& pace) -> Result<Plan> {
     Plan plan;
     std::vector<Index> triangles;
@@ -47,6 +72,7 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
     plan.nets_.push_back(std::make_shared<const Net>(Net::build(
         *scheme, options.crease_method, std::move(topology), std::move(sharpness), options.max_level, pace)));
     plan.add_channels(mesh, options.crease_method, pace);
+    plan.add_render_meshes(mesh, pace);
     return plan;
   });
 }
@@ -56,7 +82,7 @@ void Plan::add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace
   for (const Primvar& primvar : mesh.primvars) {
     pace.spend(64);
     if (primvar.interpolation != Interpolation::face_varying) continue;
-    const Net& points = this->mesh();
+    const Net& points = net();
     if (vertices.empty()) vertices = vertices_with_faces(points.topology(), pace);
     Channel channel = make_channel(mesh, method, points.topology(), points.sharpness(), vertices,
                                    corner_values(mesh, primvar, pace),
@@ -65,8 +91,18 @@ void Plan::add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace
   }
 }
 
+void Plan::add_render_meshes(const ControlMesh& mesh, const Pace& pace) {
+  render_meshes_.reserve(mesh.render_meshes.size());
+  for (const RenderMesh& render : mesh.render_meshes) {
+    pace.spend(64);
+    std::vector<Index> indices;
+    pace.copy(render.indices, indices);
+    render_meshes_.emplace_back(render.vertex_count, std::move(indices), pace);
+  }
+}
+
 LevelCounts Plan::counts(Index level) const {
-  const Topology& topology = mesh().topology();
+  const Topology& topology = net().topology();
   LevelCounts counts =
       refined_counts(topology.vertex_count(), topology.edge_count(), topology.face_count(), level);
   counts.triangles = output_faces_ << (2 * level);

@@ -1,7 +1,7 @@
 #pragma once
-// A control mesh made ready to be refined: everything about it that does not depend on values. A plan never
-// changes; threads share it, and it is evaluated again (core/refine/evaluate.h) for every frame, morph target
-// or attribute.
+// A control mesh made ready to be refined: everything about it that does not depend on values, every
+// adjacency that a request needs. A plan never changes; threads share it, sizes are predicted from it
+// (refine.h), and it is evaluated again (evaluate.h) for every level, frame, morph target or attribute.
 
 #include <memory>
 #include <span>
@@ -11,6 +11,7 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/base/result.h"
+#include "core/mesh/connectivity.h"
 #include "core/mesh/control_mesh.h"
 #include "core/refine/net.h"
 #include "core/refine/split.h"
@@ -24,23 +25,35 @@ struct PlanOptions {
   Index max_level = kMaxLevel;  // the plan serves levels 0 to this
 };
 
+// Refuses levels over kMaxLevel (out_of_range).
+Result<void> check_level(Index level);
+
+// What building a plan takes at most, and holding it: known before anything but the mesh's sizes is.
+Count plan_bytes(const ControlMesh& mesh, const PlanOptions& options);
+
 class Plan {
  public:
-  // `mesh` must have passed check(). Fails for an unknown scheme, when the points alone of max_level would
-  // take more than budget.max_bytes, and when the budget says to stop. Linear in the size of the mesh.
+  // `mesh` must have passed check(). Fails for a level over kMaxLevel, for an unknown scheme, when the points
+  // alone of max_level would take more than budget.max_bytes, and when the budget says to stop. Linear in the
+  // size of the mesh.
   static Result<Plan> build(const ControlMesh& mesh, const PlanOptions& options, const Budget& budget);
 
-  const Net& mesh() const { return *nets_[0]; }                      // points, vertex and varying primvars
-  const Net& channel(std::size_t k) const { return *nets_[k + 1]; }  // the k-th face-varying primvar
+  const Net& net() const { return *nets_[0]; }  // of points, vertex and varying primvars
+  const Net& channel_net(std::size_t k) const { return *nets_[k + 1]; }  // of the k-th face-varying primvar
   std::size_t channel_count() const { return nets_.size() - 1; }
+  // Of the k-th render mesh, over its own vertices: a seam of any attribute is a border.
+  const Connectivity& render_mesh(std::size_t k) const { return render_meshes_[k]; }
+  std::size_t render_mesh_count() const { return render_meshes_.size(); }
   std::span<const unsigned char> holes() const { return holes_; }  // per base face: 1 = not output
   // Vertices and edges of the refined mesh; triangles: holes left out.
   LevelCounts counts(Index level) const;
 
  private:
   void add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace);
+  void add_render_meshes(const ControlMesh& mesh, const Pace& pace);
 
   std::vector<std::shared_ptr<const Net>> nets_;
+  std::vector<Connectivity> render_meshes_;
   std::vector<unsigned char> holes_;
   Count output_faces_ = 0;
 };

@@ -8,9 +8,7 @@
 #include "core/base/pace.h"
 #include "core/refine/evaluate.h"
 #include "core/refine/numbering.h"
-#include "core/refine/plan.h"
 #include "core/refine/render_mesh.h"
-#include "core/refine/size.h"
 #include "core/refine/triangles.h"
 
 namespace subdivd {
@@ -18,8 +16,8 @@ namespace {
 
 // Rows of `from`, `width` scalars each, in the order of `rows`; room is left for evaluate().
 template <class Real>
-Buffer<Real> gathered(const std::vector<double>& from, Index width, std::span<const Index> rows,
-                      const Pace& pace) {
+Buffer<Real> gather_rows(const std::vector<double>& from, Index width, std::span<const Index> rows,
+                         const Pace& pace) {
   Buffer<Real> to;
   to.reserve(rows.size() * width + kSpareControl);
   to.resize(rows.size() * width);
@@ -34,7 +32,7 @@ Buffer<Real> gathered(const std::vector<double>& from, Index width, std::span<co
 }
 
 template <class Real>
-Buffer<Real> converted(const std::vector<double>& from, const Pace& pace) {
+Buffer<Real> convert_values(const std::vector<double>& from, const Pace& pace) {
   Buffer<Real> to;
   to.reserve(from.size() + kSpareControl);
   to.resize(from.size());
@@ -46,9 +44,9 @@ Buffer<Real> converted(const std::vector<double>& from, const Pace& pace) {
 
 // The values that a primvar gives to each element in turn, indices resolved.
 template <class Real>
-Buffer<Real> resolved_values(const Primvar& primvar, const Pace& pace) {
-  if (primvar.indices.empty()) return converted<Real>(primvar.values, pace);
-  return gathered<Real>(primvar.values, primvar.element_size, primvar.indices, pace);
+Buffer<Real> resolve_values(const Primvar& primvar, const Pace& pace) {
+  if (primvar.indices.empty()) return convert_values<Real>(primvar.values, pace);
+  return gather_rows<Real>(primvar.values, primvar.element_size, primvar.indices, pace);
 }
 
 // refine(), part by part.
@@ -73,7 +71,7 @@ class Job {
 
  private:
   Result<void> refine_points() {
-    const Count size = 3 * plan_.mesh().value_count(options_.level);
+    const Count size = 3 * plan_.net().value_count(options_.level);
     Evaluated<Real> to;
     const auto array = [&](Buffer<Real>& buffer) {
       buffer.resize(size);
@@ -86,7 +84,7 @@ class Job {
       to.tangents_v = array(out_.tangents_v);
     }
     if (options_.normals) to.normals = array(out_.normals);
-    return evaluate<Real>(plan_.mesh(), options_.level, converted<Real>(mesh_.points, pace_), 3,
+    return evaluate<Real>(plan_.net(), options_.level, convert_values<Real>(mesh_.points, pace_), 3,
                           Smoothing::smooth, to, options_.threads, budget_);
   }
 
@@ -98,14 +96,14 @@ class Job {
   }
 
   Result<void> refine_connectivity() {
-    if (auto done = write_indices(plan_.mesh(), out_.triangles); !done) return done;
+    if (auto done = write_indices(plan_.net(), out_.triangles); !done) return done;
     if (!options_.provenance) return {};
     out_.triangle_faces = triangle_faces();
     return write_provenance();
   }
 
   Result<void> write_provenance() {
-    const Topology& topology = plan_.mesh().topology();
+    const Topology& topology = plan_.net().topology();
     const Numbering numbering(topology, options_.level);
     const Count n = numbering.segment_count();
     out_.provenance.resize(numbering.vertex_count());
@@ -154,23 +152,23 @@ class Job {
       Result<void> done;
       switch (primvar.interpolation) {
         case Interpolation::constant:
-          out.values = resolved_values<Real>(primvar, pace_);
+          out.values = resolve_values<Real>(primvar, pace_);
           break;
         case Interpolation::uniform:
-          out.values = gathered<Real>(primvar.values, primvar.element_size, uniform_rows(primvar), pace_);
+          out.values = gather_rows<Real>(primvar.values, primvar.element_size, uniform_rows(primvar), pace_);
           break;
         case Interpolation::varying:
-          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar, pace_), Smoothing::linear, false,
-                               out);
+          done =
+              refine_values(plan_.net(), resolve_values<Real>(primvar, pace_), Smoothing::linear, false, out);
           break;
         case Interpolation::vertex:
-          done = refine_values(plan_.mesh(), resolved_values<Real>(primvar, pace_), Smoothing::smooth,
+          done = refine_values(plan_.net(), resolve_values<Real>(primvar, pace_), Smoothing::smooth,
                                options_.limit, out);
           break;
         case Interpolation::face_varying: {
-          const Net& net = plan_.channel(channel++);
+          const Net& net = plan_.channel_net(channel++);
           done = refine_values(
-              net, gathered<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_),
+              net, gather_rows<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_),
               Smoothing::smooth, options_.limit, out);
           if (done) done = write_indices(net, out.indices);
           break;
@@ -197,8 +195,8 @@ class Job {
       pace_.spend(256);
       for (; face < render.face_begin; ++face) faces += plan_.holes()[face] == 0;
       const auto triangle_begin = static_cast<Index>(faces << (2 * options_.level));
-      auto refined =
-          refine_render_mesh(render, plan_, options_.level, triangle_begin, options_.threads, budget_);
+      auto refined = refine_render_mesh(render, plan_.render_mesh(out_.render_meshes.size()), plan_,
+                                        options_.level, triangle_begin, options_.threads, budget_);
       if (!refined) return std::move(refined).error();
       out_.render_meshes.push_back(std::move(*refined));
     }
@@ -215,20 +213,33 @@ class Job {
 
 }  // namespace
 
+PlanOptions plan_options(const RefineOptions& options) {
+  return {options.loop_weights, options.crease_method, options.level};
+}
+
 template <class Real>
-Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options,
+Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
                                  const Budget& budget) {
   if (auto fits = check_magnitudes<Real>(mesh, budget); !fits) return std::move(fits).error();
-  if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
-  const auto plan = Plan::build(mesh, {options.loop_weights, options.crease_method, options.level}, budget);
-  if (!plan) return plan.error();
-  const auto size = size_of<Real>(mesh, options, *plan, budget);
+  const auto size = predict_size<Real>(mesh, plan, options, budget);
   if (!size) return size.error();
   if (auto fits = budget.check_bytes(size->bytes); !fits) return std::move(fits).error();
   return stoppable(budget,
-                   [&](const Pace& pace) { return Job<Real>(mesh, options, budget, *plan, pace).run(); });
+                   [&](const Pace& pace) { return Job<Real>(mesh, options, budget, plan, pace).run(); });
 }
 
+template <class Real>
+Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options,
+                                 const Budget& budget) {
+  const auto plan = Plan::build(mesh, plan_options(options), budget);
+  if (!plan) return plan.error();
+  return refine<Real>(mesh, *plan, options, budget);
+}
+
+template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                                  const Budget&);
+template Result<RefinedMesh<double>> refine<double>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                                    const Budget&);
 template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const RefineOptions&, const Budget&);
 template Result<RefinedMesh<double>> refine<double>(const ControlMesh&, const RefineOptions&, const Budget&);
 

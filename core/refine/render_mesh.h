@@ -3,7 +3,6 @@
 // own vertices, in which a seam of any attribute is a border.
 
 #include "core/base/budget.h"
-#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
 #include "core/refine/plan.h"
@@ -11,12 +10,11 @@
 
 namespace subdivd {
 
-// `triangle_begin`: output triangles of the faces before this render mesh's. Takes time and memory for its
-// own faces and vertices alone: a mesh may have a hundred thousand of them.
-Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Plan& plan, Index level,
-                                             Index triangle_begin, Index threads, const Budget& budget);
-
-// Vertices that refine_render_mesh would make. Takes time for its faces alone: it may have far more vertices.
-Count count_render_vertices(const RenderMesh& mesh, Index level, const Pace& pace);
+// `connectivity`: the plan's, of this render mesh. `triangle_begin`: output triangles of the faces before
+// this render mesh's. Takes time and memory for its own faces and vertices alone: a mesh may have a hundred
+// thousand of them.
+Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Connectivity& connectivity,
+                                             const Plan& plan, Index level, Index triangle_begin,
+                                             Index threads, const Budget& budget);
 
 }  // namespace subdivd

@@ -1,11 +1,10 @@
-#include "core/refine/size.h"
-
 #include <algorithm>
 #include <string>
 #include <string_view>
 
 #include "core/base/pace.h"
-#include "core/refine/render_mesh.h"
+#include "core/refine/numbering.h"
+#include "core/refine/refine.h"
 
 namespace subdivd {
 namespace {
@@ -30,17 +29,10 @@ Count evaluation_bytes(const Net& net, const RefineOptions& options, Count width
   return values * width * sizeof(Real) + net.topology().edge_count();
 }
 
-Count chaikin_bytes(const Net& net, const RefineOptions& options) {
-  if (options.crease_method != CreaseMethod::chaikin) return 0;
-  // Twice as many numbers at every level, until even the sharpest have run out.
-  return net.semi_sharp(0).edges.size() * sizeof(float)
-         << (2 + std::min(options.level + 1, static_cast<Index>(kInfiniteSharpness) + 1));
-}
-
 // Per semi-sharp edge and crease point while nets are built; per value of a channel while it is numbered; and
 // of objects, of which there may be a hundred thousand, whatever they hold.
 constexpr Count kSemiSharpBytes = 64, kCreaseBytesPerPoint = 32, kValueBytes = 16, kBytesPerPrimvar = 512,
-                kBytesPerRenderMesh = 512, kBytesPerSource = 64;
+                kBytesPerRenderMesh = 512, kBytesPerSource = 64, kBytesPerRenderFace = 136;
 
 // While the ring of a hub is looked at, which is as large as the mesh.
 constexpr Count kHub = 4096, kBytesPerRingCorner = 176;
@@ -58,15 +50,17 @@ template <class Real>
 Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
                     const Pace& pace) {
   const bool limits = options.limit || options.tangents || options.normals;
-  const Count rings_of_mesh = limits ? ring_bytes(plan.mesh().topology(), pace) : 0;
+  const Count rings_of_mesh = limits ? ring_bytes(plan.net().topology(), pace) : 0;
   Count resident = 0, building = 0, evaluation = 0;
   const auto add_net = [&](const Net& net, Count width) {
-    resident += net.resident_bytes() + chaikin_bytes(net, options);
+    resident += net.resident_bytes();
+    if (options.crease_method == CreaseMethod::chaikin)
+      resident += chaikin_bytes(net.semi_sharp(0).edges.size(), std::max(net.max_level(), options.level));
     building = std::max(building, net.building_bytes() + kSemiSharpBytes * net.semi_sharp(0).edges.size());
     evaluation = std::max(evaluation, evaluation_bytes<Real>(net, options, width) +
                                           (limits ? ring_bytes(net.topology(), pace) : 0));
   };
-  add_net(plan.mesh(), 3);
+  add_net(plan.net(), 3);
   if (!mesh.crease_lengths.empty())
     building += kCreaseBytesPerPoint * mesh.crease_indices.size() + 12 * mesh.point_count();
   std::size_t channel = 0;
@@ -74,33 +68,32 @@ Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const
     pace.spend(64);
     resident += kBytesPerPrimvar;
     if (primvar.interpolation == Interpolation::face_varying) {
-      add_net(plan.channel(channel++), primvar.element_size);
-      building = std::max(building, plan.channel(channel - 1).building_bytes() +
-                                        kValueBytes * plan.channel(channel - 1).value_count(0) +
+      add_net(plan.channel_net(channel++), primvar.element_size);
+      building = std::max(building, plan.channel_net(channel - 1).building_bytes() +
+                                        kValueBytes * plan.channel_net(channel - 1).value_count(0) +
                                         4 * mesh.face_vertex_indices.size() + 4 * mesh.point_count());
     } else if (primvar.interpolation == Interpolation::uniform) {
       evaluation = std::max(evaluation, plan.counts(options.level).triangles * Count{sizeof(Index)});
     } else if (primvar.interpolation != Interpolation::constant) {
       evaluation = std::max(
-          evaluation, evaluation_bytes<Real>(plan.mesh(), options, primvar.element_size) + rings_of_mesh);
+          evaluation, evaluation_bytes<Real>(plan.net(), options, primvar.element_size) + rings_of_mesh);
     }
   }
   for (const RenderMesh& render : mesh.render_meshes) {
     const Count faces = render.face_end - render.face_begin;
-    resident += kBytesPerRenderMesh + kBytesPerSource * plan.channel_count();
-    evaluation = std::max(evaluation, topology_building_bytes(render.vertex_count, faces) + 136 * faces +
-                                          24 * Count{render.vertex_count});
+    resident += kBytesPerRenderMesh + kBytesPerSource * plan.channel_count() + kBytesPerRenderFace * faces;
+    building = std::max(building, topology_building_bytes(render.vertex_count, faces));
   }
   return resident + std::max(building, evaluation);
 }
 
 template <class Real>
-Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
-                             const Pace& pace) {
+Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
+                                    const Pace& pace) {
   RefinedSize size;
   size.counts = plan.counts(options.level);
   if (auto fits = check_count("vertices", size.counts.vertices); !fits) return std::move(fits).error();
-  const Count all_triangles = Count{plan.mesh().topology().face_count()} << (2 * options.level);
+  const Count all_triangles = Count{plan.net().topology().face_count()} << (2 * options.level);
   if (auto fits = check_count("triangle corners", 3 * all_triangles); !fits) return std::move(fits).error();
 
   const Count indices = options.connectivity ? 3 * sizeof(Index) * size.counts.triangles : 0;
@@ -127,7 +120,7 @@ Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& optio
         has_limit = options.limit;
         break;
       case Interpolation::face_varying:
-        values = plan.channel(channel++).value_count(options.level);
+        values = plan.channel_net(channel++).value_count(options.level);
         if (auto fits = check_count("values of a face-varying primvar", values); !fits)
           return std::move(fits).error();
         size.channel_values.push_back(values);
@@ -137,9 +130,10 @@ Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& optio
     }
     size.bytes += values * primvar.element_size * sizeof(Real) * (has_limit ? 2 : 1);
   }
-  for (const RenderMesh& render : mesh.render_meshes) {
+  for (std::size_t k = 0; k < mesh.render_meshes.size(); ++k) {
     pace.spend(64);
-    const Count vertices = count_render_vertices(render, options.level, pace);
+    const RenderMesh& render = mesh.render_meshes[k];
+    const Count vertices = Numbering(plan.render_mesh(k), options.level).vertex_count();
     if (auto fits = check_count("render vertices", vertices); !fits) return std::move(fits).error();
     const auto faces =
         std::ranges::count(plan.holes().subspan(render.face_begin, render.face_end - render.face_begin), 0);
@@ -153,16 +147,12 @@ Result<RefinedSize> measured(const ControlMesh& mesh, const RefineOptions& optio
 
 }  // namespace
 
-Result<void> check_level(Index level) {
-  if (level <= kMaxLevel) return {};
-  return Error{
-      ErrorCode::out_of_range, "level must be 0 to " + std::to_string(kMaxLevel), {}, level, kMaxLevel};
-}
-
 template <class Real>
-Result<RefinedSize> size_of(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
-                            const Budget& budget) {
-  return stoppable(budget, [&](const Pace& pace) { return measured<Real>(mesh, options, plan, pace); });
+Result<RefinedSize> predict_size(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
+                                 const Budget& budget) {
+  if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
+  return stoppable(budget,
+                   [&](const Pace& pace) { return size_of_refined<Real>(mesh, options, plan, pace); });
 }
 
 template <class Real>
@@ -171,13 +161,13 @@ Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& o
   if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
   const auto plan = Plan::build(mesh, {options.loop_weights, options.crease_method, 0}, budget);
   if (!plan) return plan.error();
-  return size_of<Real>(mesh, options, *plan, budget);
+  return predict_size<Real>(mesh, *plan, options, budget);
 }
 
-template Result<RefinedSize> size_of<float>(const ControlMesh&, const RefineOptions&, const Plan&,
-                                            const Budget&);
-template Result<RefinedSize> size_of<double>(const ControlMesh&, const RefineOptions&, const Plan&,
-                                             const Budget&);
+template Result<RefinedSize> predict_size<float>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                                 const Budget&);
+template Result<RefinedSize> predict_size<double>(const ControlMesh&, const Plan&, const RefineOptions&,
+                                                  const Budget&);
 template Result<RefinedSize> predict_size<float>(const ControlMesh&, const RefineOptions&, const Budget&);
 template Result<RefinedSize> predict_size<double>(const ControlMesh&, const RefineOptions&, const Budget&);
 

@@ -33,12 +33,12 @@ constexpr auto pattern() {
 
 class FaceWriter {
  public:
-  FaceWriter(const Topology& topology, Index level, const Pace& pace)
-      : topology_(topology), n_(segments(level)), pace_(pace) {}
+  FaceWriter(const Connectivity& connectivity, Index level, const Pace& pace)
+      : connectivity_(connectivity), n_(segments(level)), pace_(pace) {}
 
   void write(Index face, Index* out) {
     if (n_ == 2) return write_four(face, out);
-    const FaceNumbers numbers(topology_, n_, face);
+    const FaceNumbers numbers(connectivity_, n_, face);
     switch (n_) {
       case 4:
         return write_by_pattern<4>(numbers, out);
@@ -52,8 +52,9 @@ class FaceWriter {
  private:
   // One point an edge: it makes no difference from which end they count.
   void write_four(Index face, Index* out) const {
-    const Index *v = topology_.triangles().data() + Count{3} * face,
-                *e = topology_.half_edge_edges().data() + Count{3} * face, first = topology_.vertex_count();
+    const Index *v = connectivity_.triangles().data() + Count{3} * face,
+                *e = connectivity_.half_edge_edges().data() + Count{3} * face,
+                first = connectivity_.vertex_count();
     const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0],
                             first + e[1], first + e[2], first + e[0], v[1],
                             first + e[1], first + e[2], first + e[1], v[2]};
@@ -157,7 +158,7 @@ class FaceWriter {
     return out - 6 * ((kRun - count % kRun) % kRun);
   }
 
-  const Topology& topology_;
+  const Connectivity& connectivity_;
   Count n_;
   const Pace& pace_;
 };
@@ -166,14 +167,15 @@ constexpr Count kWorthSharing = 1 << 16;  // indices: starting a thread takes as
 
 }  // namespace
 
-Result<void> write_triangles(const Topology& topology, Index level, std::span<const unsigned char> holes,
-                             Index* out, Index threads, const Budget& budget) {
+Result<void> write_triangles(const Connectivity& connectivity, Index level,
+                             std::span<const unsigned char> holes, Index* out, Index threads,
+                             const Budget& budget) {
   const Count per_face = 3 * segments(level) * segments(level);
-  if (per_face * topology.face_count() < kWorthSharing) threads = 1;
+  if (per_face * connectivity.face_count() < kWorthSharing) threads = 1;
   return Team::run(threads, budget, [&](Worker& worker) {
     const Pace pace(worker);
-    FaceWriter writer(topology, level, pace);
-    const Range share = worker.share(topology.face_count());
+    FaceWriter writer(connectivity, level, pace);
+    const Range share = worker.share(connectivity.face_count());
     Index* at =
         out + per_face * static_cast<Count>(std::count(
                              holes.begin(), holes.begin() + static_cast<std::ptrdiff_t>(share.begin), 0));

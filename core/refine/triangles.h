@@ -6,13 +6,14 @@
 #include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
-#include "core/mesh/topology.h"
+#include "core/mesh/connectivity.h"
 
 namespace subdivd {
 
 // Refined triangles of the faces whose `holes` flag is 0, in the order of split.h: 3 indices each, 3 * n^2
-// per face, into `out`. `holes`: one flag per face of the topology. Independent of the number of threads.
-Result<void> write_triangles(const Topology& topology, Index level, std::span<const unsigned char> holes,
-                             Index* out, Index threads, const Budget& budget);
+// per face, into `out`. `holes`: one flag per face of the connectivity. Independent of the number of threads.
+Result<void> write_triangles(const Connectivity& connectivity, Index level,
+                             std::span<const unsigned char> holes, Index* out, Index threads,
+                             const Budget& budget);
 
 }  // namespace subdivd

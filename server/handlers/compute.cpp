@@ -14,10 +14,11 @@ namespace subdivd::server {
 namespace {
 
 template <class Real>
-Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request, const Budget& budget) {
+Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request,
+                                             const std::vector<Plan>& plans, const Budget& budget) {
   proto::RefineAnswer<Real> answer;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto refined = refine<Real>(request.meshes[i], proto::mesh_options(request), budget);
+    auto refined = refine<Real>(request.meshes[i], plans[i], proto::mesh_options(request), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "meshes", i);
     answer.meshes.push_back(std::move(refined).value());
   }
@@ -36,11 +37,12 @@ Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request
 }
 
 template <class Real>
-Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Budget& budget) {
+Result<oracle::Report> verify_all(const proto::RefineRequest& request, const std::vector<Plan>& plans,
+                                  const Budget& budget) {
   oracle::Report report;
   report.oracle = oracle::oracle_name();
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto verified = oracle::verify<Real>(request.meshes[i], proto::mesh_options(request), budget);
+    auto verified = oracle::verify<Real>(request.meshes[i], plans[i], proto::mesh_options(request), budget);
     if (!verified) return proto::blame_input(request, std::move(verified).error(), "meshes", i);
     report.meshes.push_back(std::move(verified).value());
   }
@@ -60,13 +62,13 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const Bud
 }
 
 template <class Real>
-Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Budget& budget,
-                                   Phases& phases) {
-  auto answer = refine_all<Real>(request, budget);
+Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const std::vector<Plan>& plans,
+                                   const Budget& budget, Phases& phases) {
+  auto answer = refine_all<Real>(request, plans, budget);
   if (!answer) return std::move(answer).error();
   phases.end("refine");
   if (request.options.verify) {
-    auto report = verify_all<Real>(request, budget);
+    auto report = verify_all<Real>(request, plans, budget);
     if (!report) return std::move(report).error();
     answer->verification = std::move(report).value();
     phases.end("verify");
@@ -76,11 +78,12 @@ Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const Bu
 
 }  // namespace
 
-Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request, const Budget& budget,
+Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request,
+                                            const std::vector<Plan>& plans, const Budget& budget,
                                             Phases& phases) {
   return proto::answer_precision(request) == proto::Precision::single_precision
-             ? answer_in<float>(request, budget, phases)
-             : answer_in<double>(request, budget, phases);
+             ? answer_in<float>(request, plans, budget, phases)
+             : answer_in<double>(request, plans, budget, phases);
 }
 
 Count oracle_bytes(const proto::RefineRequest& request) {
@@ -95,10 +98,11 @@ Count oracle_bytes(const proto::RefineRequest& request) {
   return bytes;
 }
 
-Result<oracle::Report> compute_report(const proto::RefineRequest& request, const Budget& budget) {
+Result<oracle::Report> compute_report(const proto::RefineRequest& request, const std::vector<Plan>& plans,
+                                      const Budget& budget) {
   return proto::answer_precision(request) == proto::Precision::single_precision
-             ? verify_all<float>(request, budget)
-             : verify_all<double>(request, budget);
+             ? verify_all<float>(request, plans, budget)
+             : verify_all<double>(request, plans, budget);
 }
 
 }  // namespace subdivd::server

@@ -41,8 +41,8 @@ Result<Approximation> inserted(const Spline& spline, const CurveTask& task, cons
   return at_member(std::move(error), "insert", static_cast<std::uint64_t>(place - task.insert.begin()));
 }
 
-Result<Approximation> thinned(const Spline& spline, const CurveTask& task, const Budget& budget,
-                              Count& removed) {
+Result<Approximation> remove_knots_of(const Spline& spline, const CurveTask& task, const Budget& budget,
+                                      Count& removed) {
   const double tolerance = task.tolerance.value_or(0);
   auto thinning = task.remove ? remove_knots(spline, *task.remove, tolerance, budget)
                               : remove_knots(spline, tolerance, budget);
@@ -78,7 +78,8 @@ Result<void> reduce(Approximation& curve, Index degree, double allowed, ReusedMe
 }
 
 // `tolerance`: what the task says, or rounding alone.
-Result<Approximation> redrawn(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory) {
+Result<Approximation> convert_curve(Spline spline, const CurveTask& task, double tolerance,
+                                    ReusedMemory& memory) {
   const Budget& budget = memory.budget();
   Approximation result{std::move(spline), 0};
   const auto put = [&](Result<Spline> next, const char* member) -> Result<void> {
@@ -148,9 +149,9 @@ Result<Approximation> edited(Spline spline, const CurveTask& task, double tolera
     case CurveTaskKind::insert_knot:
       return inserted(spline, task, memory.budget());
     case CurveTaskKind::remove_knot:
-      return thinned(spline, task, memory.budget(), removed);
+      return remove_knots_of(spline, task, memory.budget(), removed);
     default:
-      return redrawn(std::move(spline), task, tolerance, memory);
+      return convert_curve(std::move(spline), task, tolerance, memory);
   }
 }
 

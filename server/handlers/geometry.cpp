@@ -80,16 +80,18 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
   return problem_response(Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0});
 }
 
-// Sets aside what a request will take: to refine and to encode the answer, and to verify, which refines both
-// here and in OpenSubdiv.
-Result<void> take_predicted(const proto::RefineRequest& request, bool answers, bool verifies,
-                            const proto::Limits& limits, const Budget& budget) {
-  const auto predicted = proto::predict_refine(request, limits, budget);
-  if (!predicted) return predicted.error();
+// Plans a request's meshes, and sets aside what it will take: to refine and to encode the answer, and to
+// verify, which refines both here and in OpenSubdiv.
+Result<std::vector<Plan>> plan_and_take(const proto::RefineRequest& request, bool answers, bool verifies,
+                                        const proto::Limits& limits, const Budget& budget) {
+  auto predicted = proto::predict_refine(request, limits, budget);
+  if (!predicted) return std::move(predicted).error();
   Count bytes = 0;
   if (answers) bytes += predicted->answer_bytes + predicted->working_bytes;
   if (verifies) bytes += predicted->working_bytes + oracle_bytes(request);
-  return budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes));
+  if (auto taken = budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes)); !taken)
+    return std::move(taken).error();
+  return std::move(predicted->plans);
 }
 
 // ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
@@ -183,10 +185,11 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
   if (!decoded) return std::move(decoded).error();
   if (!choose_format(request, *decoded))
     return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
-  if (auto taken = take_predicted(*decoded, true, decoded->options.verify, limits_, budget); !taken)
-    return std::move(taken).error();
   phases.end("read");
-  auto answer = compute_refinement(*decoded, budget, phases);
+  const auto plans = plan_and_take(*decoded, true, decoded->options.verify, limits_, budget);
+  if (!plans) return plans.error();
+  phases.end("plan");
+  auto answer = compute_refinement(*decoded, *plans, budget, phases);
   if (!answer) return std::move(answer).error();
   auto payload = proto::encode_refine(*decoded, *std::move(answer), budget);
   if (!payload) return std::move(payload).error();
@@ -204,10 +207,11 @@ Response GeometryHandlers::verify(Request& request) {
     Phases phases;
     const auto decoded = decode_any(request, limits_, budget);
     if (!decoded) return decoded.error();
-    if (auto taken = take_predicted(*decoded, false, true, limits_, budget); !taken)
-      return std::move(taken).error();
     phases.end("read");
-    const auto report = compute_report(*decoded, budget);
+    const auto plans = plan_and_take(*decoded, false, true, limits_, budget);
+    if (!plans) return plans.error();
+    phases.end("plan");
+    const auto report = compute_report(*decoded, *plans, budget);
     if (!report) return report.error();
     phases.end("verify");
     auto payload = proto::encode_report(*decoded, *report, budget);
@@ -282,7 +286,9 @@ bool self_test() {
     "options": {"level": 3, "limit": true, "normals": true}})";
   const auto decoded = proto::decode_refine(kMesh, proto::BodyKind::json, {}, proto::Limits{});
   if (!decoded) return false;
-  const auto report = compute_report(*decoded, Budget{});
+  const auto predicted = proto::predict_refine(*decoded, proto::Limits{});
+  if (!predicted) return false;
+  const auto report = compute_report(*decoded, predicted->plans, Budget{});
   return report.ok() && report->verdict() == oracle::Verdict::passed;
 }
 

@@ -4,8 +4,8 @@
 
 #include "core/curves/flatten_subdivided.h"
 #include "server/handlers/compute_curves.h"
-#include "server/handlers/drawn_curve.h"
 #include "server/handlers/each_curve.h"
+#include "server/handlers/evaluable_curve.h"
 
 namespace subdivd::server {
 namespace {
@@ -39,18 +39,18 @@ Result<void> measure_closest(const Spline& spline, const CurveTask& task, Reused
 
 // A spline or a subdivided curve.
 template <class Curve>
-Result<Polyline> flattened(const Curve& drawn, const ControlCurves& curves, Count curve,
-                           const CurveTask& task, const Budget& budget) {
+Result<Polyline> flatten_curve(const Curve& evaluable, const ControlCurves& curves, Count curve,
+                               const CurveTask& task, const Budget& budget) {
   const FlattenOptions options = {.tolerance = *task.flatten,
                                   .max_points = most_polyline_points(curves.points_of_curve(curve))};
-  auto polyline = flatten(drawn, options, budget);
+  auto polyline = flatten(evaluable, options, budget);
   if (!polyline) return at_member(std::move(polyline).error(), "flatten");
   return polyline;
 }
 
 // What has no formula has a polyline, and that only.
-Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves& curves, Count curve, Count,
-                              const CurveTask& task, ReusedMemory& memory) {
+Result<CurveMeasure> measure_curve(const SubdividedCurve& evaluable, const ControlCurves& curves, Count curve,
+                                   Count, const CurveTask& task, ReusedMemory& memory) {
   if (!task.flatten || task.equal_lengths || task.convergence || !task.closest_to.empty())
     return Error{
         ErrorCode::unsupported,
@@ -59,15 +59,15 @@ Result<CurveMeasure> measured(const SubdividedCurve& drawn, const ControlCurves&
         0,
         0};
   CurveMeasure measure;
-  auto polyline = flattened(drawn, curves, curve, task, memory.budget());
+  auto polyline = flatten_curve(evaluable, curves, curve, task, memory.budget());
   if (!polyline) return std::move(polyline).error();
   measure.polyline = *std::move(polyline);
   return measure;
 }
 
 // `first`: where the points of the curve begin.
-Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves, Count curve, Count first,
-                              const CurveTask& task, ReusedMemory& memory) {
+Result<CurveMeasure> measure_curve(const Spline& spline, const ControlCurves& curves, Count curve,
+                                   Count first, const CurveTask& task, ReusedMemory& memory) {
   const Budget& budget = memory.budget();
   const Count before = memory.used();  // one after the other takes the same memory
   CurveMeasure measure;
@@ -84,7 +84,7 @@ Result<CurveMeasure> measured(const Spline& spline, const ControlCurves& curves,
   memory.free_to(before);
   if (auto done = measure_closest(spline, task, memory, measure); !done) return std::move(done).error();
   if (task.flatten) {
-    auto polyline = flattened(spline, curves, curve, task, budget);
+    auto polyline = flatten_curve(spline, curves, curve, task, budget);
     if (!polyline) return std::move(polyline).error();
     measure.polyline = *std::move(polyline);
   }
@@ -116,11 +116,13 @@ Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, 
   all.reserve(count);  // they would be moved as often as the vector grew
   ReusedMemory memory(budget);
   Count first = 0;  // of the points of the present curve
-  const auto measure = [&](const DrawnCurve& curve, std::size_t set, Count ordinal) -> Result<void> {
+  const auto measure = [&](const EvaluableCurve& curve, std::size_t set, Count ordinal) -> Result<void> {
     const ControlCurves& curves = request.curves.curves[set];
     if (ordinal == 0) first = 0;
     auto one = std::visit(
-        [&](const auto& drawn) { return measured(drawn, curves, ordinal, first, request.task, memory); },
+        [&](const auto& evaluable) {
+          return measure_curve(evaluable, curves, ordinal, first, request.task, memory);
+        },
         curve);
     first += curves.points_of_curve(ordinal);
     if (!one && one.error().where == Path{"basis"})
@@ -129,7 +131,8 @@ Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, 
     all.push_back(*std::move(one));
     return {};
   };
-  if (auto done = for_each_curve(request, memory, drawn, measure); !done) return std::move(done).error();
+  if (auto done = for_each_curve(request, memory, evaluable_curve, measure); !done)
+    return std::move(done).error();
   return all;
 }
 

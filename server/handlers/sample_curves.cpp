@@ -12,8 +12,8 @@
 #include "core/surfaces/patch.h"
 #include "proto/prepare.h"
 #include "server/handlers/compute_curves.h"
-#include "server/handlers/drawn_curve.h"
 #include "server/handlers/each_curve.h"
+#include "server/handlers/evaluable_curve.h"
 #include "server/handlers/reused_memory.h"
 
 namespace subdivd::server {
@@ -46,7 +46,7 @@ std::vector<Located> all_curves(const CurveRequest& request, const Pace& pace) {
 }
 
 // Elementary steps to work out one sample: the basis, and what is summed up over it.
-Count steps_of_sample(const DrawnCurve& curve, const CurveTask& task) {
+Count steps_of_sample(const EvaluableCurve& curve, const CurveTask& task) {
   const Spline* spline = std::get_if<Spline>(&curve);
   const Count rows = (task.frames ? 4 : 1) + Count{task.derivatives};
   if (spline == nullptr) return 256 + 8 * rows * std::get<SubdividedCurve>(curve).dimension();
@@ -55,7 +55,7 @@ Count steps_of_sample(const DrawnCurve& curve, const CurveTask& task) {
 }
 
 // What a curve keeps beside itself.
-Count held_bytes(const DrawnCurve& curve) {
+Count held_bytes(const EvaluableCurve& curve) {
   const Spline* spline = std::get_if<Spline>(&curve);
   if (spline == nullptr) return 0;
   return (spline->knots.capacity() + spline->points.capacity()) * sizeof(double) + 2 * kBytesPerBlock;
@@ -162,14 +162,14 @@ class CurveShelf {
   std::size_t size() const { return places_.size(); }
   std::size_t set_of(Index number) const { return places_[number].set; }
 
-  Result<const DrawnCurve*> curve(Index number) {
-    std::optional<DrawnCurve>& curve = curves_[number];
+  Result<const EvaluableCurve*> curve(Index number) {
+    std::optional<EvaluableCurve>& curve = curves_[number];
     if (curve) return &*curve;
     const Budget& budget = memory_.budget();
     const auto& [set, ordinal, place] = places_[number];
     const Count kept = memory_.used(), bytes = spline_bytes(request_.curves.curves[set], ordinal);
     if (auto taken = budget.take_memory(bytes); !taken) return std::move(taken).error();
-    auto made = drawn(request_.curves.curves[set], ordinal, place, budget);
+    auto made = evaluable_curve(request_.curves.curves[set], ordinal, place, budget);
     if (!made) return proto::blame_input(request_.curves, std::move(made).error(), "curves", set);
     curve = *std::move(made);
     memory_.free_to(kept);
@@ -181,7 +181,7 @@ class CurveShelf {
   const CurveRequest& request_;
   ReusedMemory& memory_;
   std::vector<Located> places_;
-  std::vector<std::optional<DrawnCurve>> curves_;
+  std::vector<std::optional<EvaluableCurve>> curves_;
 };
 
 Result<CurveSamples> sampled(const CurveRequest& request, ReusedMemory& memory, const Pace& pace) {
@@ -208,7 +208,7 @@ Result<CurveSamples> sampled(const CurveRequest& request, ReusedMemory& memory, 
 
 Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
   ReusedMemory memory(budget);
-  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<DrawnCurve>);
+  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<EvaluableCurve>);
   if (auto taken = memory.budget().take_memory(curve_count(request) * kOfCurve); !taken) return taken.error();
   return stoppable(memory.budget(), [&](const Pace& pace) { return sampled(request, memory, pace); });
 }

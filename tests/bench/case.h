@@ -65,10 +65,10 @@ inline OurTimes run_ours(const Case& cell, Index threads, Output& out) {
   Stopwatch stopwatch;
   const Plan plan = cell.plan();
   times.plan = stopwatch.lap();
-  must(evaluate<float>(plan.mesh(), cell.level, cell.workload->points, 3, Smoothing::smooth,
+  must(evaluate<float>(plan.net(), cell.level, cell.workload->points, 3, Smoothing::smooth,
                        {.values = out.points.data()}, threads, {}));
   times.evaluate = stopwatch.lap();
-  must(write_triangles(plan.mesh().topology(), cell.level, plan.holes(), out.triangles.data(), threads, {}));
+  must(write_triangles(plan.net().topology(), cell.level, plan.holes(), out.triangles.data(), threads, {}));
   times.indices = stopwatch.lap();
   return times;
 }

@@ -8,6 +8,7 @@
 #include "core/refine/numbering.h"
 #include "core/schemes/loop.h"
 #include "tests/reference/plain.h"
+#include "tests/reference/ring.h"
 
 namespace subdivd::plain {
 namespace {
@@ -137,7 +138,7 @@ class Refinement {
  private:
   template <class F>
   Result<void> for_each_ring(const Values<Real>& set, const Level& mesh, F&& f) const {
-    const Sharp own{level_.topology, level_.sharpness}, above{mesh.topology, mesh.sharpness};
+    const SharpTopology own{level_.topology, level_.sharpness}, above{mesh.topology, mesh.sharpness};
     for (Index v = 0; v < level_.topology.vertex_count(); ++v) {
       if (v % 4096 == 0)
         if (auto stop = budget_.poll()) return *stop;

@@ -230,9 +230,9 @@ TEST(engine, evaluates_one_plan_again_for_other_values) {
   for (const double scale : {1.0, -2.0, 4.0}) {
     ControlMesh moved = mesh;
     for (double& x : moved.points) x *= scale;
-    std::vector<double> values(3 * plan->mesh().value_count(3));
+    std::vector<double> values(3 * plan->net().value_count(3));
     const auto done =
-        evaluate<double>(plan->mesh(), 3, moved.points, 3, Smoothing::smooth, {values.data()}, 1, {});
+        evaluate<double>(plan->net(), 3, moved.points, 3, Smoothing::smooth, {values.data()}, 1, {});
     ASSERT_TRUE(done.ok());
     const auto once = refine<double>(moved, {.level = 3}, {});
     EXPECT_TRUE(std::ranges::equal(values, once->points)) << scale;
@@ -254,13 +254,13 @@ TEST(engine, stops_at_a_deadline_before_the_end) {
   const ControlMesh mesh = fan(200);
   const auto plan = Plan::build(mesh, {}, {});
   const std::vector<float> control(mesh.points.begin(), mesh.points.end());
-  Buffer<float> values(3 * plan->mesh().value_count(9));
+  Buffer<float> values(3 * plan->net().value_count(9));
   Budget budget;
   budget.deadline = Budget::Clock::now();
   for (const Index threads : {1u, 2u}) {
     values.back() = -7;
     const auto done =
-        evaluate<float>(plan->mesh(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
+        evaluate<float>(plan->net(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().code, ErrorCode::deadline_exceeded);
     EXPECT_EQ(values.back(), -7);  // nobody got that far

@@ -11,9 +11,10 @@
 namespace subdivd::server {
 
 // On knots what has polynomial pieces, else the points and the rule.
-using DrawnCurve = std::variant<Spline, SubdividedCurve>;
+using EvaluableCurve = std::variant<Spline, SubdividedCurve>;
 
 // As spline_of(); `curves` must outlive it.
-Result<DrawnCurve> drawn(const ControlCurves& curves, Count curve, CurvePlace place, const Budget& budget);
+Result<EvaluableCurve> evaluable_curve(const ControlCurves& curves, Count curve, CurvePlace place,
+                                       const Budget& budget);
 
 }  // namespace subdivd::server

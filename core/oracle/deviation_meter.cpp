@@ -1,4 +1,4 @@
-#include "core/oracle/tally.h"
+#include "core/oracle/deviation_meter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ double capped(double value) { return value < kLargest ? value : kLargest; }  // 
 
 }  // namespace
 
-Tally::Tally(std::string quantity, double scale, double tolerance, double segments)
+DeviationMeter::DeviationMeter(std::string quantity, double scale, double tolerance, double segments)
     : scale_(scale), segments_(segments) {
   deviation_.quantity = std::move(quantity);
   deviation_.tolerance = tolerance;
 }
 
-void Tally::add(double relative, const Site& site) {
+void DeviationMeter::add(double relative, const Site& site) {
   const double value = capped(relative);
   const bool first = deviation_.compared == 0;
   ++deviation_.compared;
@@ -32,14 +32,14 @@ void Tally::add(double relative, const Site& site) {
   deviation_.worst_v = site.place.face == kNoIndex ? 0 : site.place.j / segments_;
 }
 
-void Tally::except(const std::string& reason) {
+void DeviationMeter::except(const std::string& reason) {
   ++deviation_.excepted;
   if (deviation_.exception.find(reason) != std::string::npos) return;
   if (!deviation_.exception.empty()) deviation_.exception += "; ";
   deviation_.exception += reason;
 }
 
-Deviation Tally::finish() const {
+Deviation DeviationMeter::finish() const {
   Deviation result = deviation_;
   if (result.compared > 0)
     result.rms_relative = capped(std::sqrt(sum_of_squares_ / static_cast<double>(result.compared)));

@@ -14,10 +14,10 @@ struct Site {
   Provenance place;
 };
 
-class Tally {
+class DeviationMeter {
  public:
   // `scale`: what relative deviations are measured by; `segments`: of a base edge at this level.
-  Tally(std::string quantity, double scale, double tolerance, double segments);
+  DeviationMeter(std::string quantity, double scale, double tolerance, double segments);
 
   // One value's deviation, divided by the scale. Not a number counts as the largest double: what cannot be
   // compared has failed.

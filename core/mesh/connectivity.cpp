@@ -1,0 +1,52 @@
+#include "core/mesh/connectivity.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace subdivd {
+namespace {
+
+// Where the row of every vertex's corners begins, and the last ends.
+std::vector<Index> corner_offsets(Index vertex_count, std::span<const Index> triangles, const Pace& pace) {
+  std::vector<Index> offsets;
+  pace.fill(offsets, Count{vertex_count} + 1, 0);
+  pace.for_each(triangles.size(), [&](std::size_t h) { ++offsets[triangles[h] + 1]; });
+  pace.for_each(Count{vertex_count}, [&](Count v) { offsets[v + 1] += offsets[v]; });
+  return offsets;
+}
+
+// The vertices that have faces, ascending.
+std::vector<Index> used_vertices(std::span<const Index> triangles, const Pace& pace) {
+  std::vector<Index> used;
+  pace.copy(triangles, used);
+  pace.sort(used.begin(), used.end(), std::less<>());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+// Under numbers that leave out the unused vertices, and are in the same order, the edges are the same.
+Edges find_edges_of_used(std::span<const Index> triangles, const Pace& pace) {
+  const std::vector<Index> used = used_vertices(triangles, pace);
+  std::vector<Index> renumbered;
+  pace.copy(triangles, renumbered);
+  pace.for_each(renumbered.size(), [&](std::size_t h) {
+    renumbered[h] = static_cast<Index>(std::ranges::lower_bound(used, renumbered[h]) - used.begin());
+  });
+  const auto count = static_cast<Index>(used.size());
+  Edges edges = find_edges(count, renumbered, corner_offsets(count, renumbered, pace), pace);
+  pace.for_each(edges.vertices.size(), [&](std::size_t e) {
+    for (Index& end : edges.vertices[e]) end = used[end];
+  });
+  return edges;
+}
+
+}  // namespace
+
+Connectivity::Connectivity(Index vertex_count, std::vector<Index> triangles, const Pace& pace)
+    : vertex_count_(vertex_count), triangles_(std::move(triangles)) {
+  edges_ = vertex_count_ > triangles_.size()
+               ? find_edges_of_used(triangles_, pace)
+               : find_edges(vertex_count_, triangles_, corner_offsets(vertex_count_, triangles_, pace), pace);
+}
+
+}  // namespace subdivd
