@@ -2,10 +2,11 @@
 // Which HTTP status says what.
 //
 //   400  bytes that are not JSON, GLB or glTF at all; a bad query parameter; malformed HTTP
-//   413  a body larger than allowed                  422  a well-formed body that breaks a rule, and answers
-//   503  out of time, overloaded or shutting down         larger than allowed (predicted and allowed are
-//   given) 500  our own failure, without details 404, 405, 406, 408, 414, 415, 417, 431, 501, 505 as RFC 9110
-//   says
+//   413  a body larger than allowed
+//   422  a well-formed body that breaks a rule; answers larger than allowed (predicted and allowed are given)
+//   500  our own failure, without details
+//   503  out of time, overloaded or shutting down
+//   404, 405, 406, 408, 414, 415, 417, 431, 501, 505 as RFC 9110 says
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The result of refinement: flat arrays, and where on the control mesh every refined vertex lies.
 //
-// Numbering (DESIGN: closed form, n = 2^level): base vertices 0..V-1; then the n-1 points inside base edge e
+// Numbering, in closed form (n = 2^level): base vertices 0..V-1; then the n-1 points inside base edge e
 // at V + e(n-1) + (i-1); then the (n-1)(n-2)/2 points inside face f, row by row. See core/refine/split.h.
 
 #include <string>

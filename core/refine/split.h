@@ -1,19 +1,19 @@
 #pragma once
 // Closed-form numbering of uniformly refined triangle meshes: n = 2^level segments per base edge.
 //
-// The grid of a base face (v0, v1, v2): point (i, j) = v0 + i/n (v1 - v0) + j/n (v2 - v0), i, j >= 0, i + j
-// <= n.
+// The grid of a base face (v0, v1, v2): point (i, j) = v0 + i/n (v1 - v0) + j/n (v2 - v0), i, j >= 0 and
+// i + j <= n.
 //
-//            v2                     row j holds the points (0..n-j, j)
-//           /  \                    edge 0 = v0 v1 (j = 0), edge 1 = v1 v2 (i + j = n), edge 2 = v2 v0 (i =
-//           0)
-//         /      \                  upright triangle  (i,j) (i+1,j) (i,j+1)
-//       v0 ------ v1                inverted triangle (i+1,j) (i+1,j+1) (i,j+1)
+//            v2            row j holds the points (0..n-j, j)
+//           /  \           edge 0 = v0 v1 (j = 0), edge 1 = v1 v2 (i + j = n), edge 2 = v2 v0 (i = 0)
+//         /      \         upright triangle  (i,j) (i+1,j) (i,j+1)
+//       v0 ------ v1       inverted triangle (i+1,j) (i+1,j+1) (i,j+1)
 //
-// Vertices:  base vertex v: v;  k-th point inside base edge e (k = 1..n-1, counted from the edge's
-// lower-numbered end): V + e(n-1) + k-1;  inside face f: V + E(n-1) + f(n-1)(n-2)/2 + inner(i,j), row by row
-// from j = 1. Triangles: face f owns n^2 triangles starting at f n^2, row by row: upright (i,j) is number n^2
-// - (n-j)^2 + 2i, the inverted one right of it the next.
+// Vertices:   base vertex v: number v
+//             k-th point inside base edge e (k = 1..n-1, from the edge's lower-numbered end): V + e(n-1) + k-1
+//             inside face f: V + E(n-1) + f(n-1)(n-2)/2 + inner(i,j), row by row from j = 1
+// Triangles:  face f owns n^2 triangles starting at f n^2, row by row: upright (i,j) is number
+//             n^2 - (n-j)^2 + 2i, the inverted one right of it the next
 
 #include <cmath>
 

@@ -28,9 +28,9 @@ struct Loop {
   //   Warren: beta(n) = 3 / (8 n), 3/16 at n = 3                       [Warren95]
   double beta(Index n) const;
 
-  // smooth 3/8 (a + b) + 1/8 (o0 + o1), crease or border 1/2 (a + b); k faces share the opposite weight: 1/8
-  // * 2/k. A sharpness below 1 that runs out blends the two.                  [Loop87; DeRose98; Far 3.5 for
-  // k != 2]
+  // smooth 3/8 (a + b) + 1/8 (o0 + o1), crease or border 1/2 (a + b)      [Loop87]
+  // k faces share the opposite weight: 1/8 * 2/k each                     [Far 3.5 for k != 2]
+  // A sharpness below 1 that runs out blends the two.                     [DeRose98]
   EdgeMask edge_mask(const EdgeRing& ring) const;
   // smooth (1 - n beta) v + beta sum e; crease 3/4 v + 1/8 (e_a + e_b); corner v; blended by the fractional
   // weight when the rule changes with the next level. A ring without faces stays where it is.

@@ -1,5 +1,5 @@
 #pragma once
-// The loops of B-spline surfaces, a row of points at a time and flat over its scalars. Inside core/curves
+// The loops of B-spline surfaces, a row of points at a time and flat over its scalars. Inside core/surfaces
 // only.
 
 #include <optional>

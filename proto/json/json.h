@@ -1,5 +1,5 @@
 #pragma once
-// The JSON encoding of requests and answers (DESIGN §6). read: cursor.h; write: the shortest texts
+// The JSON encoding of requests and answers. read: cursor.h; write: the shortest texts
 // (text_writer.h).
 
 #include <string>
