@@ -30,9 +30,7 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
   if (survey->has_asset)
     return Error{ErrorCode::unknown_field,
                  "the body has an \"asset\" and looks like glTF, whose content type is model/gltf+json",
-                 {"asset"},
-                 0,
-                 0};
+                 {"asset"}};
   if (auto taken = budget.take_memory(survey->reading_bytes()); !taken) return taken.error();
   Result<RefineRequest> request =
       survey->is_curve() ? json::read_curve(body, limits, budget) : json::read(body, limits, budget);
@@ -54,10 +52,7 @@ Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const Query
     case BodyKind::gltf:
       if (magic)
         return Error{ErrorCode::malformed,
-                     "the body is a GLB, but its content type says JSON; send it as model/gltf-binary",
-                     {},
-                     0,
-                     0};
+                     "the body is a GLB, but its content type says JSON; send it as model/gltf-binary"};
       break;
   }
   if (kind == BodyKind::gltf) return read_gltf(body, Format::gltf, query, limits, budget);
@@ -120,12 +115,11 @@ bool is_glb(std::string_view body) { return body.starts_with(kGlbMagic); }
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
                                     const Limits& limits, const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
-    return Error{ErrorCode::too_large,
-                 std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
-                     std::to_string(limits.max_body_bytes) + " are allowed",
-                 {},
-                 body.size(),
-                 limits.max_body_bytes};
+    return Error{.code = ErrorCode::too_large,
+                 .message = std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
+                            std::to_string(limits.max_body_bytes) + " are allowed",
+                 .predicted = body.size(),
+                 .allowed = limits.max_body_bytes};
   Result<RefineRequest> request = read_any(body, kind, query, limits, budget);
   if (!request) return request;
   if (Result<void> fine = check_options(request->options, limits, query); !fine) return fine.error();
@@ -156,13 +150,13 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
   if (!answer) return answer.error();
   prediction.answer_bytes = *answer;
   if (prediction.answer_bytes > limits.max_output_bytes)
-    return Error{ErrorCode::too_large,
-                 std::string("the answer would take up to ") + std::to_string(prediction.answer_bytes) +
-                     " bytes; " + std::to_string(limits.max_output_bytes) +
-                     " are allowed: choose a lower level or a smaller input",
-                 {},
-                 prediction.answer_bytes,
-                 limits.max_output_bytes};
+    return Error{.code = ErrorCode::too_large,
+                 .message = std::string("the answer would take up to ") +
+                            std::to_string(prediction.answer_bytes) + " bytes; " +
+                            std::to_string(limits.max_output_bytes) +
+                            " are allowed: choose a lower level or a smaller input",
+                 .predicted = prediction.answer_bytes,
+                 .allowed = limits.max_output_bytes};
   return prediction;
 }
 

@@ -143,14 +143,14 @@ Result<void> set_word(Options& options, const OptionSpec& spec, std::string_view
   const auto found = std::find(spec.words.begin(), spec.words.end(), word);
   if (found == spec.words.end())
     return Error{ErrorCode::bad_enum,
-                 std::string(spec.name) + " is " + in_quotes(word) + hint(word, spec.words), where, 0, 0};
+                 std::string(spec.name) + " is " + in_quotes(word) + hint(word, spec.words), where};
   spec.set(options, static_cast<std::uint64_t>(found - spec.words.begin()));
   return {};
 }
 
 Error unknown(std::string_view name, std::span<const std::string_view> taken, const Path& where) {
   return {ErrorCode::unknown_field, std::string("there is no option ") + in_quotes(name) + hint(name, taken),
-          where, 0, 0};
+          where};
 }
 
 Path parameter(std::string_view name) { return {"?" + client_text(name)}; }
@@ -228,7 +228,7 @@ Result<void> check_option(std::string_view name, std::span<const std::string_vie
   if (std::ranges::find(taken, name) != taken.end()) return {};
   return Error{ErrorCode::unknown_field,
                "this request does not take the option " + in_quotes(name) + "; valid: " + either_of(taken),
-               where, 0, 0};
+               where};
 }
 
 Result<void> set_option(Options& options, std::string_view name, const OptionValue& value,
@@ -259,8 +259,8 @@ Result<void> set_parameter(Options& options, std::string_view name, std::string_
     case OptionKind::boolean:
       if (text != "true" && text != "false" && text != "1" && text != "0")
         return Error{ErrorCode::bad_enum,
-                     std::string(name) + " is " + in_quotes(text) + "; it must be true, false, 1 or 0", where,
-                     0, 0};
+                     std::string(name) + " is " + in_quotes(text) + "; it must be true, false, 1 or 0",
+                     where};
       spec->set(options, text == "true" || text == "1" ? 1 : 0);
       return {};
     case OptionKind::integer: {
@@ -289,22 +289,24 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
     if (!seen.insert(name).second)
       return Error{ErrorCode::duplicate_field,
                    std::string("the parameter ") + in_quotes(name) + " is given twice; give it once",
-                   parameter(name), 0, 0};
+                   parameter(name)};
   }
   return {};
 }
 
 Result<void> check_options(const Options& options, const Limits& limits, const QueryParameters& query) {
   if (options.level > limits.max_level)
-    return Error{ErrorCode::too_large,
-                 std::string("level is ") + std::to_string(options.level) + "; this server allows at most " +
-                     std::to_string(limits.max_level),
-                 blame("level", query), options.level, limits.max_level};
+    return Error{.code = ErrorCode::too_large,
+                 .message = std::string("level is ") + std::to_string(options.level) +
+                            "; this server allows at most " + std::to_string(limits.max_level),
+                 .where = blame("level", query),
+                 .predicted = options.level,
+                 .allowed = limits.max_level};
   if (options.verify && options.loop_weights == LoopWeights::warren)
     return Error{ErrorCode::unsupported,
                  "verify compares with OpenSubdiv, which knows Loop's weights only: leave out verify or take "
                  "loopWeights loop",
-                 blame("verify", query), 0, 0};
+                 blame("verify", query)};
   return {};
 }
 

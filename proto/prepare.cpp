@@ -82,9 +82,7 @@ Result<void> check_beside_faces(const ControlMesh& mesh, const Budget& budget) {
     return Error{ErrorCode::wrong_length,
                  "holds " + std::to_string(given) + (indexed ? " indices" : " values") +
                      "; this interpolation takes " + std::to_string(expected),
-                 {"primvars", primvar.name, indexed ? "indices" : "values"},
-                 0,
-                 0};
+                 {"primvars", primvar.name, indexed ? "indices" : "values"}};
   }
   return {};
 }
@@ -182,7 +180,7 @@ Result<void> check_fits(std::span<const double> values, const Path& where, const
     place.emplace_back(std::uint64_t{begin} + static_cast<std::uint64_t>(bad - block.begin()));
     return Error{ErrorCode::out_of_range,
                  "this is too large for single precision; take precision double or scale it down",
-                 std::move(place), 0, 0};
+                 std::move(place)};
   }
   return {};
 }

@@ -44,7 +44,7 @@ bool read_number(std::string_view text, Number& out) {
 }
 
 Error refusal(ErrorCode code, std::string message, std::string_view name) {
-  return Error{code, std::move(message), {"?" + std::string(name)}, 0, 0};
+  return Error{code, std::move(message), {"?" + std::string(name)}};
 }
 
 Result<void> set(SchemeChoice& choice, const SchemeParameter& parameter, std::string_view text) {
@@ -86,18 +86,14 @@ Result<SchemeChoice> decode_scheme(std::string_view name, std::string_view valen
   const std::vector<SchemeInfo> schemes = list_of_schemes();
   const auto scheme = std::ranges::find(schemes, name, &SchemeInfo::name);
   if (scheme == schemes.end())
-    return Error{
-        ErrorCode::bad_enum, "there is no scheme " + in_quotes(name) + "; /v1/schemes lists them", {}, 0, 0};
+    return Error{ErrorCode::bad_enum, "there is no scheme " + in_quotes(name) + "; /v1/schemes lists them"};
   SchemeChoice choice;
   choice.name = scheme->name;
   if (!read_number(valence, choice.valence))
     return Error{ErrorCode::wrong_type,
-                 "the valence is " + in_quotes(valence) + "; it must be a whole number",
-                 {},
-                 0,
-                 0};
+                 "the valence is " + in_quotes(valence) + "; it must be a whole number"};
   if (scheme->kind == "curve" && choice.valence != 2)
-    return Error{ErrorCode::out_of_range, "a point of a curve has valence 2", {}, 0, 0};
+    return Error{ErrorCode::out_of_range, "a point of a curve has valence 2"};
   std::set<std::string_view> seen;
   for (const auto& [key, text] : query) {
     const auto parameter = std::ranges::find(scheme->parameters, key, &SchemeParameter::name);

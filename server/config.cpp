@@ -132,7 +132,7 @@ const Setting* find(std::string_view flag) {
   return found == kSettings.end() ? nullptr : &*found;
 }
 
-Error refused(std::string message) { return {ErrorCode::out_of_range, std::move(message), {}, 0, 0}; }
+Error refused(std::string message) { return {ErrorCode::out_of_range, std::move(message)}; }
 
 }  // namespace
 

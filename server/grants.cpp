@@ -91,18 +91,18 @@ Result<void> Grants::Grant::take(Count bytes) {
   Pool& pool = grants_.pool(lane_);
   const Count most = grants_.large_.bytes;
   if (bytes > most - std::min(most, asked_))
-    return Error{ErrorCode::too_large,
-                 "the request would take " + std::to_string(asked_ + bytes) + " bytes of memory; " +
-                     std::to_string(most) + " are set aside: choose a lower level or a smaller input",
-                 {},
-                 asked_ + bytes,
-                 most};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "the request would take " + std::to_string(asked_ + bytes) +
+                            " bytes of memory; " + std::to_string(most) +
+                            " are set aside: choose a lower level or a smaller input",
+                 .predicted = asked_ + bytes,
+                 .allowed = most};
   const Count asked = asked_ + bytes;
   wanted_ = asked;
   const Count missing = asked - std::min(asked, bytes_);
   const bool allowed = lane_ == Lane::large || asked <= grants_.most_small_bytes_;
   if (!allowed || missing > pool.free_bytes)
-    return Error{ErrorCode::overloaded, "other requests take the memory that this one needs", {}, 0, 0};
+    return Error{ErrorCode::overloaded, "other requests take the memory that this one needs"};
   pool.free_bytes -= missing;
   bytes_ += missing;
   asked_ = asked;

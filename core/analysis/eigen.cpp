@@ -15,10 +15,7 @@ namespace {
 Error not_real(std::complex<double> value) {
   return Error{ErrorCode::unsupported,
                "the matrix has complex eigenvalues, such as " + std::to_string(value.real()) + " + " +
-                   std::to_string(std::abs(value.imag())) + " i; only real ones are supported",
-               {},
-               0,
-               0};
+                   std::to_string(std::abs(value.imag())) + " i; only real ones are supported"};
 }
 
 Error not_separable(double value) {
@@ -26,10 +23,7 @@ Error not_separable(double value) {
       ErrorCode::unsupported,
       "the eigenvalue " + std::to_string(value) +
           " has fewer than half as many eigenvectors as it stands times: Jordan blocks of more than two "
-          "rows are not supported",
-      {},
-      0,
-      0};
+          "rows are not supported"};
 }
 
 // Appends the spaces of values[begin, end), which are sorted by their real parts and closer to each other
@@ -63,24 +57,20 @@ std::optional<Error> append_spaces(const Reduced& m, std::span<const std::comple
 }
 
 Result<void> check(std::span<const double> matrix, Index size) {
-  if (size == 0) return Error{ErrorCode::out_of_range, "a matrix needs at least one row", {}, 0, 0};
+  if (size == 0) return Error{ErrorCode::out_of_range, "a matrix needs at least one row"};
   if (size > kMaxEigenSize)
-    return Error{ErrorCode::too_large,
-                 "a matrix of " + std::to_string(size) + " rows is too large; " +
-                     std::to_string(kMaxEigenSize) + " are allowed",
-                 {},
-                 size,
-                 kMaxEigenSize};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "a matrix of " + std::to_string(size) + " rows is too large; " +
+                            std::to_string(kMaxEigenSize) + " are allowed",
+                 .predicted = size,
+                 .allowed = kMaxEigenSize};
   if (matrix.size() != std::size_t{size} * size)
-    return Error{ErrorCode::wrong_length,
-                 "a matrix of " + std::to_string(size) + " rows has as many columns; there are " +
-                     std::to_string(matrix.size()) + " numbers",
-                 {},
-                 0,
-                 0};
+    return Error{ErrorCode::wrong_length, "a matrix of " + std::to_string(size) +
+                                              " rows has as many columns; there are " +
+                                              std::to_string(matrix.size()) + " numbers"};
   for (std::size_t k = 0; k < matrix.size(); ++k)
     if (!std::isfinite(matrix[k]))
-      return Error{ErrorCode::not_finite, "an entry of the matrix is not a finite number", {k}, 0, 0};
+      return Error{ErrorCode::not_finite, "an entry of the matrix is not a finite number", {k}};
   return {};
 }
 
@@ -116,7 +106,7 @@ Result<EigenSystem> eigen_system(std::span<const double> matrix, Index size, con
   for (EigenSpace& space : system.spaces) {
     space.value *= scale;
     if (!std::isfinite(space.value))
-      return Error{ErrorCode::out_of_range, "an eigenvalue is too large for a double", {}, 0, 0};
+      return Error{ErrorCode::out_of_range, "an eigenvalue is too large for a double"};
   }
   std::stable_sort(system.spaces.begin(), system.spaces.end(), [](const EigenSpace& a, const EigenSpace& b) {
     return std::abs(a.value) != std::abs(b.value) ? std::abs(a.value) > std::abs(b.value) : a.value > b.value;

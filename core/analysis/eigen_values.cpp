@@ -83,8 +83,7 @@ std::array<std::complex<double>, 2> eigenvalues_of_two(double a, double b, doubl
 }
 
 Error no_convergence() {
-  return Error{
-      ErrorCode::internal, "the eigenvalues of the matrix were not found in the steps allowed", {}, 0, 0};
+  return Error{ErrorCode::internal, "the eigenvalues of the matrix were not found in the steps allowed"};
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ Row projected(const Row& target, const std::vector<Row>& vectors) {
   return sum;
 }
 
-Error unexpected(const std::string& what) { return Error{ErrorCode::internal, what, {}, 0, 0}; }
+Error unexpected(const std::string& what) { return Error{ErrorCode::internal, what}; }
 
 // Fills everything but the tangent masks; returns the eigenvectors for those.
 Result<EigenSystem> analyse(Spectrum& s, const Budget& budget) {
@@ -84,9 +84,7 @@ Result<void> check_valence(Index valence, Index least) {
   return Error{ErrorCode::out_of_range,
                "the valence is " + std::to_string(valence) + "; " + std::to_string(least) + " to " +
                    std::to_string(kMaxSpectrumValence) + " are possible",
-               {"valence"},
-               0,
-               0};
+               {"valence"}};
 }
 
 // Labels, and room for the matrix.
@@ -237,9 +235,7 @@ Result<Spectrum> lane_riesenfeld_spectrum(Index degree, const Budget& budget) {
     return Error{ErrorCode::out_of_range,
                  "the degree is " + std::to_string(degree) + "; 1 to " + std::to_string(kMaxSpectrumDegree) +
                      " are possible",
-                 {"degree"},
-                 0,
-                 0};
+                 {"degree"}};
   const Index p = degree, n = p + 2;
   Spectrum s = points_in_a_row(kLaneRiesenfeld, n);
   for (Index j = 0; j < n; ++j)
@@ -254,21 +250,17 @@ Result<Spectrum> lane_riesenfeld_spectrum(Index degree, const Budget& budget) {
 
 Result<Spectrum> four_point_spectrum(double tension, const Budget& budget) {
   const double w = tension;
-  if (!std::isfinite(w)) return Error{ErrorCode::not_finite, "the tension is not finite", {"tension"}, 0, 0};
+  if (!std::isfinite(w)) return Error{ErrorCode::not_finite, "the tension is not finite", {"tension"}};
   if (w < 0)
     return Error{ErrorCode::out_of_range,
                  "the tension is " + std::to_string(w) + "; 0 to 1/16 are possible",
-                 {"tension"},
-                 0,
-                 0};
+                 {"tension"}};
   if (w > 1.0 / 16)
     return Error{
         ErrorCode::unsupported,
         "the tension is " + std::to_string(w) +
             ", and beyond 1/16 two eigenvalues are complex, which is not supported: choose 0 to 1/16",
-        {"tension"},
-        0,
-        0};
+        {"tension"}};
   Spectrum s = points_in_a_row(kFourPoint, 5);
   // New points -2 to 2: old ones at the even places, between them the mask.
   const double near = 1.0 / 2 + w;
@@ -304,11 +296,8 @@ Result<Spectrum> spectrum(const SchemeChoice& choice, const Budget& budget) {
   if (choice.name == kFourPoint) return four_point_spectrum(choice.tension, budget);
   std::string known;
   for (const SchemeInfo& scheme : list_of_schemes()) known += (known.empty() ? "" : ", ") + scheme.name;
-  return Error{ErrorCode::bad_enum,
-               "there is no scheme \"" + choice.name + "\"; there are " + known,
-               {"scheme"},
-               0,
-               0};
+  return Error{
+      ErrorCode::bad_enum, "there is no scheme \"" + choice.name + "\"; there are " + known, {"scheme"}};
 }
 
 }  // namespace subdivd

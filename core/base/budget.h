@@ -44,9 +44,9 @@ class Budget {
   // Empty: go on. Otherwise the reason to stop, to be returned as it is.
   std::optional<Error> poll() const {
     if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed))
-      return Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0};
+      return Error{ErrorCode::cancelled, "the caller went away"};
     if (deadline != Clock::time_point::max() && Clock::now() >= deadline)
-      return Error{ErrorCode::deadline_exceeded, "the time allowed for this request ran out", {}, 0, 0};
+      return Error{ErrorCode::deadline_exceeded, "the time allowed for this request ran out"};
     return std::nullopt;
   }
 
@@ -60,12 +60,12 @@ class Budget {
   // Refuses `bytes` of output when they exceed max_bytes.
   Result<void> check_bytes(Count bytes) const {
     if (bytes <= max_bytes) return {};
-    return Error{ErrorCode::too_large,
-                 "the answer would hold " + std::to_string(bytes) + " bytes; " + std::to_string(max_bytes) +
-                     " are allowed: choose a lower level or a smaller mesh",
-                 {},
-                 bytes,
-                 max_bytes};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "the answer would hold " + std::to_string(bytes) + " bytes; " +
+                            std::to_string(max_bytes) +
+                            " are allowed: choose a lower level or a smaller mesh",
+                 .predicted = bytes,
+                 .allowed = max_bytes};
   }
 };
 

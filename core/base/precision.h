@@ -16,9 +16,7 @@ inline constexpr double kLargestValue = std::numeric_limits<Real>::max() / 1e6;
 inline Error does_not_fit() {
   return Error{ErrorCode::out_of_range,
                "a coordinate, or a difference of coordinates, is too large for the precision asked for",
-               {"points"},
-               0,
-               0};
+               {"points"}};
 }
 
 }  // namespace subdivd

@@ -52,8 +52,8 @@ using Path = std::vector<PathStep>;
 
 struct Error {
   ErrorCode code = ErrorCode::internal;
-  std::string message;  // one sentence: what was wrong, what would be right; no trailing newline
-  Path where;           // empty: the input as a whole
+  std::string message = {};  // one sentence: what was wrong, what would be right; no trailing newline
+  Path where = {};           // empty: the input as a whole
   // For too_large only: what was predicted and what is allowed, in the unit named by the message.
   Count predicted = 0;
   Count allowed = 0;

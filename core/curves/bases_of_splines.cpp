@@ -13,9 +13,7 @@ namespace {
 
 using Points = std::span<const double>;
 
-Error no_such_curve(std::string message) {
-  return Error{ErrorCode::unsupported, std::move(message), {}, 0, 0};
-}
+Error no_such_curve(std::string message) { return Error{ErrorCode::unsupported, std::move(message)}; }
 
 Result<BezierPieces> cubic_pieces(const Spline& spline, const Budget& budget) {
   if (spline.rational)

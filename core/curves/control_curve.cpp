@@ -79,11 +79,11 @@ Result<void> check_points(const ControlCurves& curves, const Budget& budget) {
                      std::to_string(curves.width) + " components",
                  {"points"}};
   if (curves.point_count() > kMaxIndexCount)
-    return Error{ErrorCode::too_large,
-                 "there are more points than 32-bit indices can number",
-                 {"points"},
-                 curves.point_count(),
-                 kMaxIndexCount};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "there are more points than 32-bit indices can number",
+                 .where = {"points"},
+                 .predicted = curves.point_count(),
+                 .allowed = kMaxIndexCount};
   BudgetPoller poller(budget);
   for (Count k = 0; k < curves.points.size(); ++k) {
     if (k % BudgetPoller::kInterval == 0)

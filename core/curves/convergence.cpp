@@ -280,12 +280,11 @@ Result<void> check_request(const ControlCurves& curves, Index curve, Index level
                  {}};
   const Count points = refined_point_count(curves, curves.points_of_curve(curve), levels);
   if (points > kMostConvergencePoints)
-    return Error{ErrorCode::too_large,
-                 "the last level would have " + std::to_string(points) + " points; " +
-                     std::to_string(kMostConvergencePoints) + " are allowed: ask for fewer levels",
-                 {},
-                 points,
-                 kMostConvergencePoints};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "the last level would have " + std::to_string(points) + " points; " +
+                            std::to_string(kMostConvergencePoints) + " are allowed: ask for fewer levels",
+                 .predicted = points,
+                 .allowed = kMostConvergencePoints};
   const Count copies = curves.wrap == CurveWrap::pinned ? 4 : 2;
   const Count bytes = points * curves.width * copies * sizeof(double);
   if (auto allowed = budget.check_bytes(bytes); !allowed) return allowed;

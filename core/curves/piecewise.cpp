@@ -15,7 +15,7 @@ namespace subdivd {
 namespace {
 
 Error fault(ErrorCode code, std::string message, Path where) {
-  return Error{code, std::move(message), std::move(where), 0, 0};
+  return Error{code, std::move(message), std::move(where)};
 }
 
 Index order_of(const ControlCurves& curves, Count curve) {

@@ -74,21 +74,20 @@ Result<void> refine_one(const ControlCurves& curves, std::span<const double> con
 
 Result<Count> total_points(const ControlCurves& curves, Index level, const Pace& pace) {
   if (level > kMaxCurveLevel)
-    return Error{ErrorCode::out_of_range,
-                 "level " + std::to_string(level) + " is over the maximum of " +
-                     std::to_string(kMaxCurveLevel) + " for curves",
-                 {},
-                 level,
-                 kMaxCurveLevel};
+    return Error{.code = ErrorCode::out_of_range,
+                 .message = "level " + std::to_string(level) + " is over the maximum of " +
+                            std::to_string(kMaxCurveLevel) + " for curves",
+                 .predicted = level,
+                 .allowed = kMaxCurveLevel};
   // No overflow: at most 2^32 points, 2^24 times as many each.
   const Count total = total_point_count(curves, level, pace);
   if (total <= kMaxIndexCount) return total;
   return Error{
-      ErrorCode::too_large,
-      "the refined curves would have more points than 32-bit indices can number: choose a lower level",
-      {},
-      total,
-      kMaxIndexCount};
+      .code = ErrorCode::too_large,
+      .message =
+          "the refined curves would have more points than 32-bit indices can number: choose a lower level",
+      .predicted = total,
+      .allowed = kMaxIndexCount};
 }
 
 }  // namespace

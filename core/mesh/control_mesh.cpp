@@ -16,7 +16,7 @@ namespace subdivd {
 namespace {
 
 Error fault(ErrorCode code, std::string message, Path where) {
-  return {code, std::move(message), std::move(where), 0, 0};
+  return {code, std::move(message), std::move(where)};
 }
 
 std::string number(Count n) { return std::to_string(n); }

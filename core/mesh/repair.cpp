@@ -136,9 +136,7 @@ void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& drop
 Error nothing_left() {
   return Error{ErrorCode::not_a_triangle,
                "every face repeats a vertex: nothing is left to refine",
-               {"faceVertexIndices"},
-               0,
-               0};
+               {"faceVertexIndices"}};
 }
 
 // The fault that check() finds, or the budget's.
@@ -207,9 +205,7 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
       return Error{ErrorCode::not_a_triangle,
                    "face " + std::to_string(f) + " has " + std::to_string(mesh.face_vertex_counts[f]) +
                        " vertices; a face has at least 3",
-                   {"faceVertexCounts", std::uint64_t{f}},
-                   0,
-                   0};
+                   {"faceVertexCounts", std::uint64_t{f}}};
   }
   if (corners == mesh.face_vertex_indices.size() && can_be_rearranged(mesh, pace)) return {};
   if (auto fine = mesh.check(budget); !fine && fine.error().code != ErrorCode::not_a_triangle)
@@ -217,9 +213,7 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
   // check() meets the larger faces first: say what stands behind them.
   return Error{ErrorCode::wrong_length,
                "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
-               {"primvars"},
-               0,
-               0};
+               {"primvars"}};
 }
 
 }  // namespace

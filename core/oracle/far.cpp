@@ -209,34 +209,30 @@ Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const
 Result<void> check_far_corners(Count corners) {
   constexpr Count kMost = std::numeric_limits<int>::max();
   if (corners <= kMost) return {};
-  return Error{ErrorCode::too_large,
-               "the refined mesh has more face corners than OpenSubdiv can number",
-               {},
-               corners,
-               kMost};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the refined mesh has more face corners than OpenSubdiv can number",
+               .predicted = corners,
+               .allowed = kMost};
 }
 
 Result<void> check_far_bytes(Count bytes, const Budget& budget) {
   if (bytes <= budget.max_bytes) return {};
-  return Error{ErrorCode::too_large,
-               "verification would take about " + std::to_string(bytes) + " bytes; " +
-                   std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
-               {},
-               bytes,
-               budget.max_bytes};
+  return Error{.code = ErrorCode::too_large,
+               .message = "verification would take about " + std::to_string(bytes) + " bytes; " +
+                          std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
+               .predicted = bytes,
+               .allowed = budget.max_bytes};
 }
 
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget) {
   if (level > kMaxFarLevel)
-    return Error{ErrorCode::out_of_range,
-                 "verification reaches level " + std::to_string(kMaxFarLevel) + "; level " +
-                     std::to_string(level) + " was asked for",
-                 {},
-                 level,
-                 kMaxFarLevel};
+    return Error{.code = ErrorCode::out_of_range,
+                 .message = "verification reaches level " + std::to_string(kMaxFarLevel) + "; level " +
+                            std::to_string(level) + " was asked for",
+                 .predicted = level,
+                 .allowed = kMaxFarLevel};
   if (mesh.face_count() == 0 || mesh.point_count() == 0)
-    return Error{
-        ErrorCode::unsupported, "OpenSubdiv takes no mesh without faces", {"faceVertexIndices"}, 0, 0};
+    return Error{ErrorCode::unsupported, "OpenSubdiv takes no mesh without faces", {"faceVertexIndices"}};
   // Far sums face corners over all levels: a third more than the last level has.
   const Count corners = (mesh.face_count() * 3 << (2 * level)) * 4 / 3 + mesh.point_count();
   if (auto fits = check_far_corners(corners); !fits) return fits;

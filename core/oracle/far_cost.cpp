@@ -86,9 +86,7 @@ class LoadFinder {
                      "OpenSubdiv takes at most " + std::to_string(kMostFacesOfAPoint) +
                          " faces and edges at a point; this one has " + std::to_string(faces) +
                          " faces and " + std::to_string(edges) + " edges",
-                     {"points", v},
-                     0,
-                     0};
+                     {"points", v}};
       load_.searches += faces * edges;
       load_.value_searches += faces * faces * load_.face_varying_channels;
       if (faces > kFewMembers || edges > kFewMembers) load_.crowded_corners += faces;
@@ -153,8 +151,11 @@ std::string milliseconds(Picoseconds time) {
 }
 
 Error too_long(std::string message, Path where, Picoseconds time) {
-  return Error{ErrorCode::too_large, std::move(message), std::move(where), time / 1'000'000'000,
-               kLongestFarCall / 1'000'000'000};
+  return Error{.code = ErrorCode::too_large,
+               .message = std::move(message),
+               .where = std::move(where),
+               .predicted = time / 1'000'000'000,
+               .allowed = kLongestFarCall / 1'000'000'000};
 }
 
 }  // namespace

@@ -99,10 +99,7 @@ bool far_has_complained() { return std::exchange(complained, false); }
 
 Error far_refusal() {
   return {ErrorCode::unsupported,
-          "OpenSubdiv refuses this topology; it can be refined here, but not verified",
-          {},
-          0,
-          0};
+          "OpenSubdiv refuses this topology; it can be refined here, but not verified"};
 }
 
 std::vector<int> corner_values(const Primvar& primvar, Count corners) {

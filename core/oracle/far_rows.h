@@ -54,8 +54,7 @@ Result<Buffer<Real>> converted(std::span<const double> values, Path where, Polle
   for (std::size_t k = 0; k < values.size(); ++k) {
     poller.spend(1);
     if (std::abs(values[k]) > static_cast<double>(std::numeric_limits<Real>::max()))
-      return Error{ErrorCode::out_of_range, "a number is too large for single precision", std::move(where), 0,
-                   0};
+      return Error{ErrorCode::out_of_range, "a number is too large for single precision", std::move(where)};
     result[k] = static_cast<Real>(values[k]);
   }
   return result;

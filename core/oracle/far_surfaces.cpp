@@ -103,7 +103,7 @@ Result<std::vector<Index>> places_of(const Far::TopologyRefiner& refiner, const 
   else
     places = child_places(refiner.GetLevel(0), from, to, vertices, poller);
   if (!one_to_one(places, to.u.points * to.v.points, poller))
-    return Error{ErrorCode::internal, "OpenSubdiv's refined grid is no grid of the expected size", {}, 0, 0};
+    return Error{ErrorCode::internal, "OpenSubdiv's refined grid is no grid of the expected size"};
   return places;
 }
 

@@ -57,10 +57,7 @@ Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const Refin
                           const Budget& budget) {
   if (options.loop_weights != LoopWeights::loop)
     return Error{ErrorCode::unsupported,
-                 "OpenSubdiv knows Loop's own weights only; verification needs loopWeights \"loop\"",
-                 {},
-                 0,
-                 0};
+                 "OpenSubdiv knows Loop's own weights only; verification needs loopWeights \"loop\""};
   return stoppable([&] {
     Poller poller(budget);
     return compare_levels<Real>(mesh, plan, options, budget, poller);

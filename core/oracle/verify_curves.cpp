@@ -56,9 +56,7 @@ Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& opti
     return Error{
         ErrorCode::unsupported,
         "OpenSubdiv knows uniform cubic B-splines only; verification needs basis \"bspline\" of degree 3",
-        {"basis"},
-        0,
-        0};
+        {"basis"}};
   if (const auto sizes = predict_bytes<Real>(curves, options); !sizes) return sizes.error();
   if (auto fits = check_far_curves(curves, options.level, budget); !fits) return fits.error();
   return stoppable([&] {

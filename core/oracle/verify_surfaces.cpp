@@ -27,9 +27,7 @@ Result<void> check_degree(Index degree, const char* field) {
   return Error{ErrorCode::unsupported,
                "OpenSubdiv knows uniform cubic B-splines only; verification needs " + std::string(field) +
                    " 3, not " + std::to_string(degree),
-               {field},
-               0,
-               0};
+               {field}};
 }
 
 // Our side of one level: what there is to compare and nothing else.

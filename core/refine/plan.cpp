@@ -24,8 +24,10 @@ std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar
 
 Result<void> check_level(Index level) {
   if (level <= kMaxLevel) return {};
-  return Error{
-      ErrorCode::out_of_range, "level must be 0 to " + std::to_string(kMaxLevel), {}, level, kMaxLevel};
+  return Error{.code = ErrorCode::out_of_range,
+               .message = "level must be 0 to " + std::to_string(kMaxLevel),
+               .predicted = level,
+               .allowed = kMaxLevel};
 }
 
 // Measured on closed meshes, separate triangles, hubs and many channels.
@@ -52,9 +54,7 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
   if (!scheme)
     return Error{ErrorCode::bad_enum,
                  "\"" + mesh.subdivision_scheme + "\" is no scheme of this version; valid: \"loop\"",
-                 {"subdivisionScheme"},
-                 0,
-                 0};
+                 {"subdivisionScheme"}};
   if (auto allowed = check_level(options.max_level); !allowed) return std::move(allowed).error();
   return stoppable(budget, [&](const Pace& pace) -> Result<Plan> {
     Plan plan;

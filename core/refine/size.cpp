@@ -11,13 +11,12 @@ namespace {
 
 Result<void> check_count(std::string_view what, Count predicted) {
   if (predicted <= kMaxIndexCount) return {};
-  return Error{ErrorCode::too_large,
-               "the level would make " + std::to_string(predicted) + " " + std::string(what) +
-                   "; 32-bit indices number " + std::to_string(kMaxIndexCount) +
-                   ": choose a lower level or split the mesh",
-               {},
-               predicted,
-               kMaxIndexCount};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the level would make " + std::to_string(predicted) + " " + std::string(what) +
+                          "; 32-bit indices number " + std::to_string(kMaxIndexCount) +
+                          ": choose a lower level or split the mesh",
+               .predicted = predicted,
+               .allowed = kMaxIndexCount};
 }
 
 // The two levels below the last, the control values, and what is semi-sharp along edges under Chaikin's rule.

@@ -53,9 +53,7 @@ Result<int> weight_exponent(const Spline& spline, const Pace& pace) {
       return Error{ErrorCode::out_of_range,
                    "weight " + std::to_string(i) + " is less than 2^" + std::to_string(kLeastWeightExponent) +
                        " of the largest; weights that far apart cannot be measured with",
-                   {"pointWeights", std::uint64_t{i}},
-                   0,
-                   0};
+                   {"pointWeights", std::uint64_t{i}}};
   }
   return exponent;
 }

@@ -40,12 +40,12 @@ Error too_fine(const FlattenOptions& options, double least) {
 }
 
 Error too_many_corners(Count predicted, Count allowed) {
-  return Error{ErrorCode::too_large,
-               "the polyline would have at least " + std::to_string(predicted) + " points; " +
-                   std::to_string(allowed) + " are allowed: choose a larger tolerance",
-               {"tolerance"},
-               predicted,
-               allowed};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the polyline would have at least " + std::to_string(predicted) + " points; " +
+                          std::to_string(allowed) + " are allowed: choose a larger tolerance",
+               .where = {"tolerance"},
+               .predicted = predicted,
+               .allowed = allowed};
 }
 
 }  // namespace subdivd

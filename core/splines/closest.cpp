@@ -163,12 +163,13 @@ class Search {
       heap_.pop_back();
       if (!reaches(candidate, found_.distance + kTie)) break;  // nor does any behind it
       if (2 * halved > kMaxClosestPieces)
-        return Error{ErrorCode::too_large,
-                     "finding the closest point takes more than " + std::to_string(kMaxClosestPieces) +
-                         " pieces: too much of the curve is equally far from the point",
-                     {"point"},
-                     2 * halved,
-                     kMaxClosestPieces};
+        return Error{.code = ErrorCode::too_large,
+                     .message = "finding the closest point takes more than " +
+                                std::to_string(kMaxClosestPieces) +
+                                " pieces: too much of the curve is equally far from the point",
+                     .where = {"point"},
+                     .predicted = 2 * halved,
+                     .allowed = kMaxClosestPieces};
       if (auto taken = hold(2); !taken) return taken.error();
       const BezierPiece piece = candidate.stored ? store_.take(candidate.number) : pieces_[candidate.number];
       for (BezierPiece& half : halves(piece, width_)) {
@@ -334,16 +335,12 @@ Result<void> check_point(const Spline& spline, std::span<const double> point) {
     return Error{ErrorCode::wrong_length,
                  "the point has " + std::to_string(point.size()) + " coordinates; those of the curve have " +
                      std::to_string(spline.dimension()),
-                 {"point"},
-                 0,
-                 0};
+                 {"point"}};
   for (Count k = 0; k < point.size(); ++k)
     if (!std::isfinite(point[k]))
       return Error{ErrorCode::not_finite,
                    "coordinate " + std::to_string(k) + " of the point is not a finite number",
-                   {"point", std::uint64_t{k}},
-                   0,
-                   0};
+                   {"point", std::uint64_t{k}}};
   return {};
 }
 

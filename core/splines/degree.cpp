@@ -281,10 +281,7 @@ Result<Approximation> reduced(const Spline& given, const Budget& budget, const P
   if (auto fine = result.check(budget); !fine) {
     if (is_stop(fine.error())) return std::move(fine).error();
     return Error{ErrorCode::unsupported,
-                 "no curve of one degree less was found near this one: " + fine.error().message,
-                 {},
-                 0,
-                 0};
+                 "no curve of one degree less was found near this one: " + fine.error().message};
   }
   const double bound = distance_bound(*goal, elevated(result, matrix, pace), pace);
   return Approximation{std::move(result), bound};
@@ -304,9 +301,7 @@ Result<Spline> elevate_degree(const Spline& spline, Index times, const Budget& b
     return Error{ErrorCode::out_of_range,
                  "the degree would be " + std::to_string(Count{spline.degree} + times) + "; it can be " +
                      std::to_string(kMaxDegree) + " at most",
-                 {"degree"},
-                 0,
-                 0};
+                 {"degree"}};
   auto result = part(spline, spline.begin(), spline.end(), budget);
   if (!result) return result;
   result->periodic = spline.periodic;
@@ -319,7 +314,7 @@ Result<Spline> elevate_degree(const Spline& spline, Index times, const Budget& b
 
 Result<Approximation> reduce_degree(const Spline& spline, const Budget& budget) {
   if (spline.degree < 2)
-    return Error{ErrorCode::out_of_range, "a curve of degree 1 has no lower degree", {"degree"}, 0, 0};
+    return Error{ErrorCode::out_of_range, "a curve of degree 1 has no lower degree", {"degree"}};
   if (auto taken = budget.take_memory(bytes_to_reduce(spline)); !taken) return std::move(taken).error();
   auto given = part(spline, spline.begin(), spline.end(), budget);
   if (!given) return std::move(given).error();

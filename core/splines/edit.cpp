@@ -16,7 +16,7 @@ Error outside(double t, const Spline& spline, Path where) {
   return Error{ErrorCode::out_of_range,
                "the parameter " + std::to_string(t) + " lies outside the domain, " +
                    std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
-               std::move(where), 0, 0};
+               std::move(where)};
 }
 
 // Knots that make t stand `degree` times.
@@ -61,7 +61,7 @@ Result<void> bring_to_ends(Spline& spline, Index degree, const Budget& budget) {
 Result<Spline> part(const Spline& spline, double from, double to, const Budget& budget) {
   if (!(from >= spline.begin() && from < spline.end())) return outside(from, spline, {"from"});
   if (!(to > spline.begin() && to <= spline.end())) return outside(to, spline, {"to"});
-  if (!(from < to)) return Error{ErrorCode::out_of_range, "the part must end behind its start", {"to"}, 0, 0};
+  if (!(from < to)) return Error{ErrorCode::out_of_range, "the part must end behind its start", {"to"}};
   std::vector<double> knots = missing(spline, from);
   for (const double t : missing(spline, to)) knots.push_back(t);
   auto refined = refine_knots(spline, knots, budget);
@@ -106,15 +106,12 @@ Result<void> append_brought(Spline& first, Spline& other, double gap, const Pace
   const Index width = first.width;
   const auto end = first.point(first.point_count() - 1), start = other.point(0);
   if (const double apart = distance(end, start, first.rational); !(apart <= gap))
-    return Error{ErrorCode::out_of_range,
-                 "the curves are " + std::to_string(apart) + " apart where they should meet; " +
-                     std::to_string(gap) + " are allowed",
-                 {},
-                 0,
-                 0};
+    return Error{ErrorCode::out_of_range, "the curves are " + std::to_string(apart) +
+                                              " apart where they should meet; " + std::to_string(gap) +
+                                              " are allowed"};
   const double meeting = first.end(), shift = meeting - other.begin();
   if (!std::isfinite(shift + other.end() - first.begin()))
-    return Error{ErrorCode::out_of_range, "the parameters of the joined curve would be too large", {}, 0, 0};
+    return Error{ErrorCode::out_of_range, "the parameters of the joined curve would be too large"};
   double* const middle = first.points.data() + (first.points.size() - width);
   for (Index k = 0; k < width; ++k) other.points[k] = middle[k] = middle[k] / 2 + other.points[k] / 2;
   pace.for_each(other.knots.size(),
@@ -130,13 +127,10 @@ Result<void> append_brought(Spline& first, Spline& other, double gap, const Pace
 
 Result<void> append(Spline& first, const Spline& second, double gap, const Budget& budget) {
   if (first.dimension() != second.dimension())
-    return Error{ErrorCode::wrong_length,
-                 "points of " + std::to_string(first.dimension()) + " and of " +
-                     std::to_string(second.dimension()) + " coordinates cannot be joined",
-                 {},
-                 0,
-                 0};
-  if (!(gap >= 0)) return Error{ErrorCode::out_of_range, "the gap must be 0 or more", {"gap"}, 0, 0};
+    return Error{ErrorCode::wrong_length, "points of " + std::to_string(first.dimension()) + " and of " +
+                                              std::to_string(second.dimension()) +
+                                              " coordinates cannot be joined"};
+  if (!(gap >= 0)) return Error{ErrorCode::out_of_range, "the gap must be 0 or more", {"gap"}};
   const Index degree = std::max(first.degree, second.degree);
   if (auto done = bring_to_ends(first, degree, budget); !done) return done;
   auto other = elevate_degree(second, degree - second.degree, budget);
@@ -179,7 +173,7 @@ Spline reversed(const Spline& spline, const Pace& pace) {
 
 Result<Spline> reparametrized(const Spline& spline, double begin, double end, const Budget& budget) {
   if (!(begin < end) || !std::isfinite(begin) || !std::isfinite(end) || !std::isfinite(end - begin))
-    return Error{ErrorCode::out_of_range, "the new domain must have a finite length above 0", {}, 0, 0};
+    return Error{ErrorCode::out_of_range, "the new domain must have a finite length above 0"};
   return stoppable(budget, [&](const Pace& pace) -> Result<Spline> {
     Spline moved = copy_of(spline, pace);
     const double old_begin = spline.begin(), old_end = spline.end();

@@ -37,26 +37,20 @@ void insert(Passage& passage, double t) {
 constexpr Count kSearch = 32;  // steps of a search among all knots
 
 Error too_often(double t, Index degree, Count times, bool at_end) {
-  return Error{ErrorCode::out_of_range,
-               "the knot " + std::to_string(t) + " would stand " + std::to_string(times) +
-                   " times; at most " + std::to_string(degree + (at_end ? 1 : 0)) + " are possible " +
-                   (at_end ? "at the end of the domain" : "inside the domain") + " of a curve of degree " +
-                   std::to_string(degree),
-               {},
-               0,
-               0};
+  return Error{ErrorCode::out_of_range, "the knot " + std::to_string(t) + " would stand " +
+                                            std::to_string(times) + " times; at most " +
+                                            std::to_string(degree + (at_end ? 1 : 0)) + " are possible " +
+                                            (at_end ? "at the end of the domain" : "inside the domain") +
+                                            " of a curve of degree " + std::to_string(degree)};
 }
 
 // Of `times` more knots t.
 Result<void> check_room(const Spline& spline, double t, Count times) {
   // Modulo the period there may be several places; a knot has one.
   if (!(t >= spline.begin() && t <= spline.end()))
-    return Error{ErrorCode::out_of_range,
-                 "the knot " + std::to_string(t) + " lies outside the domain, " +
-                     std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
-                 {},
-                 0,
-                 0};
+    return Error{ErrorCode::out_of_range, "the knot " + std::to_string(t) + " lies outside the domain, " +
+                                              std::to_string(spline.begin()) + " to " +
+                                              std::to_string(spline.end())};
   const bool at_end = t == spline.begin() || t == spline.end();
   const Count all = multiplicity(spline.knots, t) + times;
   if (all > Count{spline.degree} + (at_end ? 1 : 0)) return too_often(t, spline.degree, all, at_end);
@@ -83,9 +77,7 @@ Result<void> check_insertions(const Spline& spline, std::span<const double> knot
     if (next == first || (next < knots.size() && knots[next] < knots[first]))
       return Error{ErrorCode::out_of_range,
                    "the knots to insert must be numbers that never fall",
-                   {std::uint64_t{next}},
-                   0,
-                   0};
+                   {std::uint64_t{next}}};
     if (auto room = check_room(spline, knots[first], next - first); !room) {
       room.error().where = {std::uint64_t{first}};
       return std::move(room).error();
@@ -142,9 +134,7 @@ Result<std::vector<double>> knots_between(const Spline& spline, Index level, Cou
       return Error{ErrorCode::out_of_range,
                    "the knots " + std::to_string(span[0]) + " and " + std::to_string(span[parts]) +
                        " are too close to put " + std::to_string(parts - 1) + " between them",
-                   {"knots", std::uint64_t{k}},
-                   0,
-                   0};
+                   {"knots", std::uint64_t{k}}};
     pace.append(std::span(span).subspan(1, parts - 1), knots);
   }
   return knots;
@@ -157,11 +147,11 @@ Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& bud
     const Count points = refined_point_count(spline, level, pace);
     if (points > kMaxIndexCount)
       return Error{
-          ErrorCode::too_large,
-          "the refined curve would have more points than 32-bit indices can number: choose a lower level",
-          {},
-          points,
-          kMaxIndexCount};
+          .code = ErrorCode::too_large,
+          .message =
+              "the refined curve would have more points than 32-bit indices can number: choose a lower level",
+          .predicted = points,
+          .allowed = kMaxIndexCount};
     if (auto room = budget.check_bytes(points * (spline.width + 1) * sizeof(double)); !room)
       return std::move(room).error();
     return knots_between(spline, level, points - spline.point_count(), pace);

@@ -96,8 +96,7 @@ std::optional<Approximation> removed_once(const Spline& spline, double t) {
 
 Result<void> check_tolerance(double tolerance) {
   if (tolerance >= 0 && std::isfinite(tolerance)) return {};
-  return Error{
-      ErrorCode::out_of_range, "the tolerance must be a finite number, 0 or more", {"tolerance"}, 0, 0};
+  return Error{ErrorCode::out_of_range, "the tolerance must be a finite number, 0 or more", {"tolerance"}};
 }
 
 }  // namespace
@@ -155,12 +154,9 @@ Index remove_here(Passage& passage, Index times, double tolerance, double& bound
 namespace {
 
 Error no_such_knot(const Spline& spline, double t) {
-  return Error{ErrorCode::out_of_range,
-               "there is no knot " + std::to_string(t) + " inside the domain, " +
-                   std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
-               {},
-               0,
-               0};
+  return Error{ErrorCode::out_of_range, "there is no knot " + std::to_string(t) + " inside the domain, " +
+                                            std::to_string(spline.begin()) + " to " +
+                                            std::to_string(spline.end())};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace subdivd {
 inline constexpr Count kPiecesPerPoll = 64;  // pieces between two looks at the budget
 
 inline Error refusal(ErrorCode code, std::string message, Path where) {
-  return Error{code, std::move(message), std::move(where), 0, 0};
+  return Error{code, std::move(message), std::move(where)};
 }
 
 // A number as messages show it: two digits, such as 1.3e-12.

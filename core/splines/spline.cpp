@@ -15,7 +15,7 @@ std::string number(double value) {
 }
 
 Error fault(ErrorCode code, std::string message, Path where) {
-  return Error{code, std::move(message), std::move(where), 0, 0};
+  return Error{code, std::move(message), std::move(where)};
 }
 
 Result<void> check_multiplicities(std::span<const double> knots, Index degree, Count points,

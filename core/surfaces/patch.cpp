@@ -27,17 +27,13 @@ Result<void> check_direction(Direction d, const std::string& letter) {
   if (d.degree != 2 && d.degree != 3)
     return Error{ErrorCode::out_of_range,
                  "the degree of a surface is 2 or 3 in each direction, not " + std::to_string(d.degree),
-                 {letter + "Degree"},
-                 0,
-                 0};
+                 {letter + "Degree"}};
   const Index needed = fewest_points(d.wrap, d.degree);
   if (d.n < needed)
     return Error{ErrorCode::too_few_points,
                  "direction " + letter + " needs at least " + std::to_string(needed) +
                      " points for its degree and wrap; it has " + std::to_string(d.n),
-                 {letter + "VertexCount"},
-                 0,
-                 0};
+                 {letter + "VertexCount"}};
   return {};
 }
 
@@ -187,21 +183,21 @@ Result<Grid<Real>> grid_of(const ControlPatch& patch, BudgetPoller& poller) {
 
 Result<Count> total_points(const ControlPatch& patch, Index level) {
   if (level > kMaxPatchLevel)
-    return Error{ErrorCode::out_of_range,
-                 "level " + std::to_string(level) + " is over the maximum of " +
-                     std::to_string(kMaxPatchLevel) + " for surfaces",
-                 {},
-                 level,
-                 kMaxPatchLevel};
+    return Error{.code = ErrorCode::out_of_range,
+                 .message = "level " + std::to_string(level) + " is over the maximum of " +
+                            std::to_string(kMaxPatchLevel) + " for surfaces",
+                 .predicted = level,
+                 .allowed = kMaxPatchLevel};
   // Either factor is below 2^32 2^15, so one that is over 2^32 is noticed before their product wraps.
   const Count u = refined(u_of(patch), level).n, v = refined(v_of(patch), level).n;
   if (u > kMaxIndexCount || v > kMaxIndexCount || u * v > kMaxIndexCount)
-    return Error{ErrorCode::too_large,
-                 "the refined surface would have more points than 32-bit indices can number: choose a lower "
-                 "level",
-                 {},
-                 u > kMaxIndexCount || v > kMaxIndexCount ? std::max(u, v) : u * v,
-                 kMaxIndexCount};
+    return Error{
+        .code = ErrorCode::too_large,
+        .message =
+            "the refined surface would have more points than 32-bit indices can number: choose a lower "
+            "level",
+        .predicted = u > kMaxIndexCount || v > kMaxIndexCount ? std::max(u, v) : u * v,
+        .allowed = kMaxIndexCount};
   return u * v;
 }
 
@@ -212,26 +208,22 @@ Result<void> ControlPatch::check(const Budget& budget) const {
     return Error{ErrorCode::out_of_range,
                  "points have " + std::to_string(width) + " components each; 1 to " +
                      std::to_string(kMaxPatchWidth) + " are allowed",
-                 {"width"},
-                 0,
-                 0};
+                 {"width"}};
   if (auto u = check_direction(u_of(*this), "u"); !u) return u;
   if (auto v = check_direction(v_of(*this), "v"); !v) return v;
   const Count count = Count{u_count} * v_count;
   if (count > kMaxIndexCount)
-    return Error{ErrorCode::too_large,
-                 "there are more points than 32-bit indices can number",
-                 {"points"},
-                 count,
-                 kMaxIndexCount};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "there are more points than 32-bit indices can number",
+                 .where = {"points"},
+                 .predicted = count,
+                 .allowed = kMaxIndexCount};
   if (points.size() != count * width)
     return Error{ErrorCode::wrong_length,
                  std::to_string(u_count) + " by " + std::to_string(v_count) + " points of " +
                      std::to_string(width) + " components are " + std::to_string(count * width) +
                      " numbers; there are " + std::to_string(points.size()),
-                 {"points"},
-                 0,
-                 0};
+                 {"points"}};
   BudgetPoller poller(budget);
   for (Count k = 0; k < points.size(); ++k) {
     if (k % BudgetPoller::kInterval == 0)
@@ -240,9 +232,7 @@ Result<void> ControlPatch::check(const Budget& budget) const {
       return Error{ErrorCode::not_finite,
                    "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
                        " is not a finite number",
-                   {"points", k},
-                   0,
-                   0};
+                   {"points", k}};
   }
   return {};
 }
@@ -279,9 +269,7 @@ Result<Count> predict_bytes(const ControlPatch& patch, const PatchOptions& optio
   if (options.normals && patch.width != 3)
     return Error{ErrorCode::unsupported,
                  "normals exist for points of 3 components only; these have " + std::to_string(patch.width),
-                 {"normals"},
-                 0,
-                 0};
+                 {"normals"}};
   const Count arrays = 1 + (options.limit ? 1 : 0) + (options.tangents ? 2 : 0);
   const Count scalars = patch.width * arrays + (options.normals ? 3 : 0);
   // At most 2^32 points of 2^7 scalars and 2^5 bytes of corners: no overflow.

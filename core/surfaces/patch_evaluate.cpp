@@ -78,11 +78,8 @@ double wrapped(double t, Count n) {
 
 Result<double> parameter_of(const Direction& d, double t, const char* name) {
   if (!std::isfinite(t))
-    return Error{ErrorCode::not_finite,
-                 std::string("the parameter ") + name + " is not a finite number",
-                 {name},
-                 0,
-                 0};
+    return Error{
+        ErrorCode::not_finite, std::string("the parameter ") + name + " is not a finite number", {name}};
   if (!d.open()) return wrapped(t, d.n);
   const double low = d.wrap == CurveWrap::pinned ? 0 : d.degree == 2 ? 0.5 : 1;
   const double high = static_cast<double>(d.n) - (d.pinned_quadratic() ? 2 : 1 + low);
@@ -91,9 +88,7 @@ Result<double> parameter_of(const Direction& d, double t, const char* name) {
                std::string("the parameter ") + name + " = " + std::to_string(t) +
                    " lies outside the surface's domain, " + std::to_string(low) + " to " +
                    std::to_string(high),
-               {name},
-               0,
-               0};
+               {name}};
 }
 
 Basis cubic_basis(const Direction& d, double t) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMaxForeignChunks = 64;
 
-Error broken(std::string message) { return Error{ErrorCode::malformed, std::move(message), {}, 0, 0}; }
+Error broken(std::string message) { return Error{ErrorCode::malformed, std::move(message)}; }
 
 std::uint32_t little_endian(std::string_view body, std::size_t at) {
   std::uint32_t value = 0;
@@ -24,10 +24,7 @@ Result<void> check_header(std::string_view body) {
     return broken("the body does not begin with \"glTF\": it is no GLB file");
   if (const std::uint32_t version = little_endian(body, 4); version != 2)
     return Error{ErrorCode::unsupported,
-                 "the GLB container has version " + std::to_string(version) + "; version 2 is needed",
-                 {},
-                 0,
-                 0};
+                 "the GLB container has version " + std::to_string(version) + "; version 2 is needed"};
   if (const std::uint32_t length = little_endian(body, 8); length != body.size())
     return broken("the GLB header says " + std::to_string(length) + " bytes but the body has " +
                   std::to_string(body.size()));

@@ -69,11 +69,15 @@ std::string Place::pointer() const {
 }
 
 Error error_at(const Place& place, ErrorCode code, std::string message) {
-  return Error{code, std::move(message), place.path(), 0, 0};
+  return Error{code, std::move(message), place.path()};
 }
 
 Error over_limit(const Place& place, Count predicted, Count allowed, std::string message) {
-  return Error{ErrorCode::too_large, std::move(message), place.path(), predicted, allowed};
+  return Error{.code = ErrorCode::too_large,
+               .message = std::move(message),
+               .where = place.path(),
+               .predicted = predicted,
+               .allowed = allowed};
 }
 
 Result<std::optional<Count>> optional_integer(const Json& object, std::string_view name, const Place& place,

@@ -134,14 +134,13 @@ Count primitives_of(const RefineRequest& request) {
 Result<void> check_primitives(const RefineRequest& request) {
   const Count count = primitives_of(request);
   if (request.source || count <= kMaxPrimitives) return {};
-  return Error{ErrorCode::too_large,
-               "the answer would have " + std::to_string(count) +
-                   " primitives, one for each mesh, curve and "
-                   "surface; a glTF answer may have " +
-                   std::to_string(kMaxPrimitives) + ": ask for JSON",
-               {},
-               count,
-               kMaxPrimitives};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the answer would have " + std::to_string(count) +
+                          " primitives, one for each mesh, curve and "
+                          "surface; a glTF answer may have " +
+                          std::to_string(kMaxPrimitives) + ": ask for JSON",
+               .predicted = count,
+               .allowed = kMaxPrimitives};
 }
 
 // What the document and the slots take, for each primitive and for each attribute beside its name.

@@ -21,11 +21,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 16;  // bytes between two looks
 constexpr Count kTokenCopies = 16;
 
 Error broken_at(std::size_t byte, const std::string& what) {
-  return Error{ErrorCode::malformed,
-               "the glTF JSON is broken at byte " + std::to_string(byte) + ": " + what,
-               {},
-               0,
-               0};
+  return Error{ErrorCode::malformed, "the glTF JSON is broken at byte " + std::to_string(byte) + ": " + what};
 }
 
 // The text as the parser sees it. Stopped, it is at its end.
@@ -254,10 +250,12 @@ bool TreeBuilder::key(string_t& name) {
   auto text = whole(name);
   if (!text) return fail(text.error());
   if (text->size() > kMaxNameBytes)
-    return fail({ErrorCode::too_large,
-                 "the name of a member has " + std::to_string(text->size()) + " bytes; " +
-                     std::to_string(kMaxNameBytes) + " are allowed",
-                 path(), text->size(), kMaxNameBytes});
+    return fail({.code = ErrorCode::too_large,
+                 .message = "the name of a member has " + std::to_string(text->size()) + " bytes; " +
+                            std::to_string(kMaxNameBytes) + " are allowed",
+                 .where = path(),
+                 .predicted = text->size(),
+                 .allowed = kMaxNameBytes});
   open_.back()->object()->push_back({*std::move(text), Json()});
   return true;
 }
@@ -323,7 +321,7 @@ Result<std::string_view> without_nuls(std::string_view text, Work& work) {
   if (nul == std::string_view::npos) return text;
   for (std::size_t at = nul; at < text.size(); at += kPiece) {
     if (text.substr(at, kPiece).find_first_not_of('\0') != std::string_view::npos)
-      return Error{ErrorCode::malformed, "the glTF JSON has a NUL at byte " + std::to_string(nul), {}, 0, 0};
+      return Error{ErrorCode::malformed, "the glTF JSON has a NUL at byte " + std::to_string(nul)};
     if (auto stop = work.spend(kPiece / 8)) return *std::move(stop);
   }
   return text.substr(0, nul);

@@ -113,12 +113,11 @@ void Counter::close() {
 Result<void> Counter::one_more() {
   ++shape_.sizes[open_.back().ordinal];
   if (++shape_.values <= limits_.max_values) return {};
-  return Error{ErrorCode::too_large,
-               "the glTF document has more than " + std::to_string(limits_.max_values) +
-                   " JSON values; keep bulk data in buffers",
-               {},
-               shape_.values,
-               limits_.max_values};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the glTF document has more than " + std::to_string(limits_.max_values) +
+                          " JSON values; keep bulk data in buffers",
+               .predicted = shape_.values,
+               .allowed = limits_.max_values};
 }
 
 // Something begins that is not the end of its container: the first makes an element, each comma one more.

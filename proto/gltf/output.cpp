@@ -147,12 +147,11 @@ Result<Payload> Output::finish_glb(const std::shared_ptr<const void>& source,
   for (const Source::Foreign& chunk : foreign) total += kChunkHeaderSize + chunk.bytes.size();
   constexpr Count kMaxGlb = std::numeric_limits<std::uint32_t>::max();
   if (total > kMaxGlb)
-    return Error{ErrorCode::too_large,
-                 "the answer would have " + std::to_string(total) + " bytes; a GLB file holds at most " +
-                     std::to_string(kMaxGlb),
-                 {},
-                 total,
-                 kMaxGlb};
+    return Error{.code = ErrorCode::too_large,
+                 .message = "the answer would have " + std::to_string(total) +
+                            " bytes; a GLB file holds at most " + std::to_string(kMaxGlb),
+                 .predicted = total,
+                 .allowed = kMaxGlb};
   const Count head_size = kGlbHeaderSize + kChunkHeaderSize + json_size + kChunkHeaderSize;
   std::string head;
   head.reserve(head_size);

@@ -86,7 +86,7 @@ Result<void> load(const std::string& text, tinygltf::Model& model) {
   if (loaded) return {};
   // It catches what nlohmann's parser throws, and keeps the words alone.
   if (error == std::bad_alloc().what()) throw std::bad_alloc();
-  return Error{ErrorCode::internal, "the glTF reader refused a checked asset", {}, 0, 0};
+  return Error{ErrorCode::internal, "the glTF reader refused a checked asset"};
 }
 
 Result<std::string> document_of(const char* array, Json::Array slice, Work& work) {
@@ -127,7 +127,7 @@ Result<void> load_slices(const Json& document, const char* array, const std::vec
     if (auto stop = work.spend(BudgetPoller::kInterval)) return *std::move(stop);
   }
   if ((model.*list).size() == numbers.size()) return {};
-  return Error{ErrorCode::internal, "the glTF reader left something out", {}, 0, 0};
+  return Error{ErrorCode::internal, "the glTF reader left something out"};
 }
 
 constexpr Index kUsed = 0;

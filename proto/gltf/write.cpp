@@ -25,7 +25,7 @@ Result<void> attach(Json& asset, std::string_view envelope, const std::vector<st
     auto parsed = parse_json(envelope, {64, kMaxIndexCount}, work);
     if (!parsed && parsed.error().code != ErrorCode::malformed) return parsed.error();
     if (!parsed || parsed->object() == nullptr)
-      return Error{ErrorCode::internal, "the envelope of the answer is no JSON object", {}, 0, 0};
+      return Error{ErrorCode::internal, "the envelope of the answer is no JSON object"};
     ours = *std::move(parsed);
     for (const std::string& warning : warnings) ours.array_member("warnings").push_back(warning);
   }

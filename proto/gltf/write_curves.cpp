@@ -98,10 +98,7 @@ Result<void> write_curves(const CurvesSlot& slot, const std::vector<RefinedCurve
     if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); }))
       return Error{
           ErrorCode::not_finite,
-          in_quotes(attribute.name) + " of a curve holds values too large for the single precision of glTF",
-          {},
-          0,
-          0};
+          in_quotes(attribute.name) + " of a curve holds values too large for the single precision of glTF"};
     const auto accessor = output.add_floats(*std::move(values), attribute.components, bounds);
     if (!accessor) return accessor.error();
     attributes.set(attribute.name, Json::number(Count{*accessor}));

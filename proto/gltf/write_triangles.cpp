@@ -15,12 +15,8 @@ namespace subdivd::proto::gltf {
 namespace {
 
 Error not_single(const std::string& attribute) {
-  return Error{ErrorCode::not_finite,
-               (attribute == "POSITION" ? attribute : in_quotes(attribute)) +
-                   " holds values too large for the single precision of glTF",
-               {},
-               0,
-               0};
+  return Error{ErrorCode::not_finite, (attribute == "POSITION" ? attribute : in_quotes(attribute)) +
+                                          " holds values too large for the single precision of glTF"};
 }
 
 constexpr Count kPiece = 16384;  // elements between two looks at the clock

@@ -51,7 +51,7 @@ Cursor::Step::Step(Cursor& cursor, std::uint64_t element) : cursor_(cursor) {
 
 bool Cursor::fail(ErrorCode code, std::string message, Path below) {
   if (error_) return false;
-  error_ = Error{code, std::move(message), path_to(std::move(below)), 0, 0};
+  error_ = Error{code, std::move(message), path_to(std::move(below))};
   return false;
 }
 

@@ -315,15 +315,11 @@ Result<void> check_surfaces(const CurveRequest& request) {
     return Error{ErrorCode::out_of_range,
                  "this is " + std::to_string(request.task.derivatives) +
                      "; surfaces have derivatives of order 1 and 2",
-                 {"derivatives"},
-                 0,
-                 0};
+                 {"derivatives"}};
   if (read.surfaces.empty() || kind == CurveTaskKind::refine || kind == CurveTaskKind::evaluate) return {};
   return Error{ErrorCode::unsupported,
                "this request takes curves; surfaces are refined and evaluated",
-               {read.single_surface_at_top ? "type" : "surfaces"},
-               0,
-               0};
+               {read.single_surface_at_top ? "type" : "surfaces"}};
 }
 
 }  // namespace
@@ -331,12 +327,11 @@ Result<void> check_surfaces(const CurveRequest& request) {
 Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, const QueryParameters& query,
                                    const Limits& limits, const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
-    return Error{ErrorCode::too_large,
-                 std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
-                     std::to_string(limits.max_body_bytes) + " are allowed",
-                 {},
-                 body.size(),
-                 limits.max_body_bytes};
+    return Error{.code = ErrorCode::too_large,
+                 .message = std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
+                            std::to_string(limits.max_body_bytes) + " are allowed",
+                 .predicted = body.size(),
+                 .allowed = limits.max_body_bytes};
   CurveRequest request;
   request.task.kind = kind;
   const auto survey = json::survey(body, budget);

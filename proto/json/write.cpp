@@ -190,10 +190,7 @@ class AnswerWriter {
     error_ = Error{ErrorCode::not_finite,
                    std::string("number ") + std::to_string(place) + " of the refined " + name +
                        " is too large for the precision of the answer; scale the input down or take "
-                       "precision double",
-                   {},
-                   0,
-                   0};
+                       "precision double"};
     const bool top = request_.single_mesh_at_top && std::string_view(of) == "meshes";
     if (!top && !request_.single_curve_at_top && !request_.single_surface_at_top)
       error_->where = {of, std::uint64_t{number}};

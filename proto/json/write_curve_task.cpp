@@ -107,10 +107,7 @@ class TaskWriter {
     if (text_.stopped()) return *text_.stopped();
     if (too_large_)
       return Error{ErrorCode::not_finite,
-                   "a number of the answer is too large for single precision; take precision double",
-                   {},
-                   0,
-                   0};
+                   "a number of the answer is too large for single precision; take precision double"};
     return payload;
   }
 

@@ -70,9 +70,7 @@ Result<void> reduce(Approximation& curve, Index degree, double allowed, ReusedMe
     return Error{ErrorCode::out_of_range,
                  "at degree " + std::to_string(curve.spline.degree) + " the curve may be " +
                      std::to_string(curve.bound) + " away; the tolerance is " + std::to_string(allowed),
-                 {"toDegree"},
-                 0,
-                 0};
+                 {"toDegree"}};
   }
   return {};
 }

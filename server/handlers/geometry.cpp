@@ -62,22 +62,19 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
     case Grants::Denied::full:
       return problem_response(Refusal{503, "overloaded", "too many requests are waiting to be computed"});
     case Grants::Denied::too_large:
-      return problem_response(Error{ErrorCode::too_large,
-                                    "the request takes more memory than the " + std::to_string(most) +
-                                        " bytes that are set aside: choose a lower level or a smaller input",
-                                    {},
-                                    wanted,
-                                    most});
+      return problem_response(
+          Error{.code = ErrorCode::too_large,
+                .message = "the request takes more memory than the " + std::to_string(most) +
+                           " bytes that are set aside: choose a lower level or a smaller input",
+                .predicted = wanted,
+                .allowed = most});
     case Grants::Denied::too_late:
       return problem_response(Error{ErrorCode::deadline_exceeded,
-                                    "the time allowed for this request ran out while it waited for others",
-                                    {},
-                                    0,
-                                    0});
+                                    "the time allowed for this request ran out while it waited for others"});
     case Grants::Denied::cancelled:
       break;
   }
-  return problem_response(Error{ErrorCode::cancelled, "the caller went away", {}, 0, 0});
+  return problem_response(Error{ErrorCode::cancelled, "the caller went away"});
 }
 
 // Plans a request's meshes, and sets aside what it will take: to refine and to encode the answer, and to

@@ -23,9 +23,7 @@ Result<void> measure_closest(const Spline& spline, const CurveTask& task, Reused
     return Error{ErrorCode::wrong_length,
                  "the points have " + std::to_string(task.closest_width) +
                      " coordinates, those of the curve " + std::to_string(spline.dimension()),
-                 {"closestTo"},
-                 0,
-                 0};
+                 {"closestTo"}};
   const Count before = memory.used();
   for (std::size_t at = 0; at < task.closest_to.size(); at += task.closest_width) {
     auto closest =
@@ -55,9 +53,7 @@ Result<CurveMeasure> measure_curve(const SubdividedCurve& evaluable, const Contr
     return Error{
         ErrorCode::unsupported,
         "this curve has no polynomial pieces: it has no length or box here, only a polyline (flatten)",
-        {"basis"},
-        0,
-        0};
+        {"basis"}};
   CurveMeasure measure;
   auto polyline = flatten_curve(evaluable, curves, curve, task, memory.budget());
   if (!polyline) return std::move(polyline).error();

@@ -101,13 +101,13 @@ Count numbers_edited(const CurveRequest& request, const Pace& pace) {
 Result<void> check_removals(const CurveRequest& request, Count curves) {
   const Count listed = request.task.remove ? request.task.remove->size() : 0;
   if (curves <= 1 || listed <= kMostListedRemovals / curves) return {};
-  return Error{ErrorCode::too_large,
-               std::to_string(listed) + " knots would be looked for in each of " + std::to_string(curves) +
-                   " curves; " + std::to_string(kMostListedRemovals) +
-                   " searches are allowed: list fewer knots, or leave the list out",
-               {"remove"},
-               listed,
-               kMostListedRemovals / curves};
+  return Error{.code = ErrorCode::too_large,
+               .message = std::to_string(listed) + " knots would be looked for in each of " +
+                          std::to_string(curves) + " curves; " + std::to_string(kMostListedRemovals) +
+                          " searches are allowed: list fewer knots, or leave the list out",
+               .where = {"remove"},
+               .predicted = listed,
+               .allowed = kMostListedRemovals / curves};
 }
 
 // --- What was found about curves --------------------------------------------------------------------------
@@ -194,12 +194,11 @@ Result<Count> predict_curve_task(const CurveRequest& request, Count most, const 
   if (!all) return all.error();
   const Count text = all->numbers * kTextOfNumber;
   if (text <= most) return all->numbers * kBytesOfNumber + bytes_beside(request, *all);
-  return Error{ErrorCode::too_large,
-               "the answer would take up to " + std::to_string(text) + " bytes; " + std::to_string(most) +
-                   " are allowed: ask for less, or for fewer curves",
-               {},
-               text,
-               most};
+  return Error{.code = ErrorCode::too_large,
+               .message = "the answer would take up to " + std::to_string(text) + " bytes; " +
+                          std::to_string(most) + " are allowed: ask for less, or for fewer curves",
+               .predicted = text,
+               .allowed = most};
 }
 
 }  // namespace subdivd::server

@@ -65,9 +65,7 @@ Error no_such(const char* what, const char* member, std::size_t sample, Index nu
   return {ErrorCode::out_of_range,
           std::string("there is no ") + what + ' ' + std::to_string(number) + "; the body has " +
               std::to_string(count),
-          {"samples", member, std::uint64_t{sample}},
-          0,
-          0};
+          {"samples", member, std::uint64_t{sample}}};
 }
 
 // What a curve is like at one parameter, written behind what is known of the samples before.

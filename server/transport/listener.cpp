@@ -17,11 +17,7 @@ namespace {
 constexpr int kBacklog = 1024;
 
 Error failure(const std::string& host, int port, const std::string& reason) {
-  return {ErrorCode::internal,
-          "cannot listen on " + host + " port " + std::to_string(port) + ": " + reason,
-          {},
-          0,
-          0};
+  return {ErrorCode::internal, "cannot listen on " + host + " port " + std::to_string(port) + ": " + reason};
 }
 
 int port_of(int fd) {

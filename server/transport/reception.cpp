@@ -40,8 +40,7 @@ Result<void> Reception::start(const std::string& host, int port, const Limits& l
   epoll_event for_wake{EPOLLIN, {.ptr = &wake_}}, for_listener{EPOLLIN, {.ptr = &listener_}};
   if (epoll_ < 0 || wake_ < 0 || ::epoll_ctl(epoll_, EPOLL_CTL_ADD, wake_, &for_wake) != 0 ||
       ::epoll_ctl(epoll_, EPOLL_CTL_ADD, listener_->fd(), &for_listener) != 0)
-    return Error{
-        ErrorCode::internal, "cannot wait for connections: " + std::string(std::strerror(errno)), {}, 0, 0};
+    return Error{ErrorCode::internal, "cannot wait for connections: " + std::string(std::strerror(errno))};
   listening_ = true;
   thread_ = std::thread([this] { run(); });
   return {};

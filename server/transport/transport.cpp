@@ -59,8 +59,10 @@ class Transport::Impl {
     } catch (const std::system_error&) {
       end();
       join();
-      return Error{
-          ErrorCode::internal, "the system refuses to start so many threads", {}, 0, options_.threads};
+      return Error{.code = ErrorCode::internal,
+                   .message = "the system refuses to start so many threads",
+                   .predicted = 0,
+                   .allowed = options_.threads};
     }
   }
 

@@ -30,12 +30,12 @@ TEST(Status, answers_400_to_a_bad_query_parameter) {
 TEST(Status, answers_503_when_time_is_up) { EXPECT_EQ(status(ErrorCode::deadline_exceeded), 503); }
 TEST(Status, answers_500_to_our_own_failures) { EXPECT_EQ(status(ErrorCode::internal), 500); }
 TEST(Status, hides_our_own_failures) {
-  const Response response = problem_response(Error{ErrorCode::internal, "secret", {}, 0, 0});
+  const Response response = problem_response(Error{ErrorCode::internal, "secret"});
   EXPECT_EQ(text_of(response).find("secret"), std::string::npos);
 }
 TEST(Status, says_what_was_predicted_and_allowed) {
-  const std::string text =
-      text_of(problem_response(Error{ErrorCode::too_large, "message", {}, 123456, 1000}));
+  const std::string text = text_of(problem_response(
+      Error{.code = ErrorCode::too_large, .message = "message", .predicted = 123456, .allowed = 1000}));
   EXPECT_NE(text.find("123456"), std::string::npos);
   EXPECT_NE(text.find("1000"), std::string::npos);
 }

@@ -8,7 +8,7 @@ class Purse final : public MemoryGrant {
  public:
   explicit Purse(Count bytes) : left_(bytes) {}
   Result<void> take(Count bytes) override {
-    if (bytes > left_) return Error{ErrorCode::overloaded, "others take the memory", {}, 0, 0};
+    if (bytes > left_) return Error{ErrorCode::overloaded, "others take the memory"};
     left_ -= bytes;
     return {};
   }

@@ -71,7 +71,7 @@ class Stopping : public MemoryGrant {
   explicit Stopping(int after) : left_(after) {}
   Result<void> take(Count) override {
     if (left_-- > 0) return {};
-    return Error{ErrorCode::overloaded, "no memory now", {}, 0, 0};
+    return Error{ErrorCode::overloaded, "no memory now"};
   }
 
  private:

@@ -20,7 +20,7 @@ Result<Json> parse(std::string_view text, const JsonLimits& limits) {
 
 Error error_of(const std::string& text, JsonLimits limits = {}) {
   const auto parsed = parse(text, limits);
-  return parsed ? Error{ErrorCode::internal, "accepted", {}, 0, 0} : parsed.error();
+  return parsed ? Error{ErrorCode::internal, "accepted"} : parsed.error();
 }
 
 TEST(JsonTree, prints_what_it_read) {
@@ -214,7 +214,7 @@ class Counting : public MemoryGrant {
   Result<void> take(Count bytes) override {
     sum += bytes;
     if (sum <= allowed) return {};
-    return Error{ErrorCode::overloaded, "no memory now", {}, 0, 0};
+    return Error{ErrorCode::overloaded, "no memory now"};
   }
   Count sum = 0, allowed = ~Count{0};
 };
