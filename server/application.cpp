@@ -10,6 +10,7 @@
 #include "proto/schemes.h"
 #include "server/log.h"
 #include "server/status.h"
+#include "server/tasks/refine_task.h"
 #include "server/web/page.h"
 
 namespace subdivd::server {
@@ -78,7 +79,7 @@ std::vector<Route> Application::routes() {
 }
 
 bool Application::prepare() {
-  ready_ = !config_.self_test || self_test();
+  ready_ = !config_.self_test || tasks::self_test();
   return ready_;
 }
 

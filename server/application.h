@@ -6,8 +6,8 @@
 
 #include "server/config.h"
 #include "server/cors.h"
+#include "server/geometry_handlers.h"
 #include "server/grants.h"
-#include "server/handlers/geometry.h"
 #include "server/router.h"
 #include "server/transport/service.h"
 

@@ -13,7 +13,7 @@
 #include "core/curves/subdivision.h"
 #include "proto/curve_task.h"
 #include "proto/problem.h"
-#include "server/handlers/compute_curves.h"
+#include "server/tasks/compute_curves.h"
 
 namespace {
 
@@ -56,19 +56,19 @@ void answer(const proto::CurveRequest& request, const Budget& budget) {
       return;
     case Kind::evaluate:
       if (request.task.on_surfaces) {
-        if (const auto samples = server::compute_surface_samples(request, budget); found(samples))
+        if (const auto samples = server::tasks::compute_surface_samples(request, budget); found(samples))
           answer_with(proto::encode_samples(request, *samples, budget));
         return;
       }
-      if (const auto samples = server::compute_samples(request, budget); found(samples))
+      if (const auto samples = server::tasks::compute_samples(request, budget); found(samples))
         answer_with(proto::encode_samples(request, *samples, budget));
       return;
     case Kind::measure:
-      if (const auto measures = server::compute_measures(request, budget); found(measures))
+      if (const auto measures = server::tasks::compute_measures(request, budget); found(measures))
         answer_with(proto::encode_measures(request, *measures, budget));
       return;
     default:
-      if (auto edited = server::compute_edited(request, budget); found(edited))
+      if (auto edited = server::tasks::compute_edited(request, budget); found(edited))
         if (const auto payload = proto::encode_edited(request, *std::move(edited)); found(payload))
           require_answer(*payload);
   }
@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   for (const ControlCurves& curves : request->curves.curves) require(curves.check().ok());
   for (const ControlPatch& surface : request->curves.surfaces) require(surface.check().ok());
-  if (!server::predict_curve_task(*request, limits.max_output_bytes)) return 0;
+  if (!server::tasks::predict_curve_task(*request, limits.max_output_bytes)) return 0;
   Budget budget;
   budget.max_bytes = Count{64} << 20;
   budget.deadline = Budget::Clock::now() + std::chrono::milliseconds(500);

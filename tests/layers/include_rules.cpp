@@ -34,6 +34,7 @@ const std::vector<Layer> kLayers = {
   {"proto",            {"core/base/", "core/splines/", "core/curves/", "core/surfaces/", "core/mesh/", "core/schemes/", "core/refine/", "core/limit/", "core/tessellate/",
                         "core/analysis/", "core/oracle/report.h", "proto/"}, {"nlohmann/", "tiny_gltf.h"}},
   {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "malloc.h", "POSIX"}},
+  {"server/tasks",     {"core/", "proto/", "server/tasks/"}, {}},
   {"server/transport", {"core/base/", "proto/", "server/"}, {"httplib.h", "spdlog/", "openssl/", "POSIX"}},
 };
 

@@ -29,7 +29,7 @@ class IncludeRules : public ::testing::Test {
     for (const char* header :
          {"core/base/result.h", "core/mesh/topology.h", "core/refine/split.h", "core/limit/limit.h",
           "core/splines/bspline.h", "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h",
-          "proto/wire.h", "server/config.h", "server/transport/transport.h"})
+          "proto/wire.h", "server/config.h", "server/transport/transport.h", "server/status.h"})
       write(header, "#pragma once");
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -120,6 +120,11 @@ TEST_F(IncludeRules, rejects_a_system_header_in_core) {
 
 TEST_F(IncludeRules, rejects_json_in_server) {
   EXPECT_THAT(planted("server/a.cpp", "#include <nlohmann/json.hpp>"), one_at("server/a.cpp", "nlohmann"));
+}
+
+TEST_F(IncludeRules, rejects_http_in_tasks) {
+  EXPECT_THAT(planted("server/tasks/a.cpp", "#include \"server/status.h\""),
+              one_at("server/tasks/a.cpp", "server/status.h"));
 }
 
 TEST_F(IncludeRules, rejects_httplib_outside_transport) {

@@ -11,10 +11,10 @@
 #include "core/curves/piecewise.h"
 #include "core/splines/edit.h"
 #include "core/splines/spline.h"
-#include "server/handlers/compute_curves.h"
+#include "server/tasks/compute_curves.h"
 #include "tests/support/purse.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using nlohmann::json;
@@ -518,4 +518,4 @@ TEST(CurveTasks, refuse_a_convergence_of_more_points_than_anyone_waits_for) {
 }
 
 }  // namespace
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

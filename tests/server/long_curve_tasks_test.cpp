@@ -5,10 +5,10 @@
 #include <string>
 
 #include "core/base/pace.h"
-#include "server/handlers/compute_curves.h"
+#include "server/tasks/compute_curves.h"
 #include "tests/support/deadlines.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using Kind = proto::CurveTaskKind;
@@ -108,4 +108,4 @@ TEST(LongCurveTasks, refuse_to_look_for_many_knots_in_many_curves) {
 }
 
 }  // namespace
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

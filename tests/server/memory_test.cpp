@@ -14,10 +14,10 @@
 #include "core/base/budget.h"
 #include "proto/curve_task.h"
 #include "proto/decode.h"
-#include "server/handlers/compute_curves.h"
+#include "server/tasks/compute_curves.h"
 #include "tests/support/allocations.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using Kind = proto::CurveTaskKind;
@@ -348,4 +348,4 @@ TEST(Memory, that_the_system_has_not_is_no_fault_of_the_body) {
 #endif
 
 }  // namespace
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

@@ -4,7 +4,7 @@
 
 #include "core/base/budget.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 class ReusedMemory final : public MemoryGrant {
  public:
@@ -31,4 +31,4 @@ class ReusedMemory final : public MemoryGrant {
   Count used_ = 0, most_ = 0;
 };
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

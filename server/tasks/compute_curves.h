@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "proto/curve_task.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 // Bytes that the answer and its text will take at most: to be reserved before anything is computed. What is
 // needed to compute it, compute_...() take from their budget. too_large over `most`, the bytes of an answer,
@@ -28,4 +28,4 @@ Result<std::vector<proto::CurveMeasure>> compute_measures(const proto::CurveRequ
 // Insertion, removal and conversion: every curve of the request for itself, or all joined into one.
 Result<proto::EditedCurves> compute_edited(const proto::CurveRequest& request, const Budget& budget);
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

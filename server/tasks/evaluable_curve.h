@@ -8,7 +8,7 @@
 #include "core/curves/local_subdivision.h"
 #include "core/curves/piecewise.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 // On knots what has polynomial pieces, else the points and the rule.
 using EvaluableCurve = std::variant<Spline, SubdividedCurve>;
@@ -17,4 +17,4 @@ using EvaluableCurve = std::variant<Spline, SubdividedCurve>;
 Result<EvaluableCurve> evaluable_curve(const ControlCurves& curves, Count curve, CurvePlace place,
                                        const Budget& budget);
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

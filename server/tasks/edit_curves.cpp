@@ -11,10 +11,10 @@
 #include "core/splines/edit.h"
 #include "core/splines/knot_insertion.h"
 #include "core/splines/knot_removal.h"
-#include "server/handlers/compute_curves.h"
-#include "server/handlers/each_curve.h"
+#include "server/tasks/compute_curves.h"
+#include "server/tasks/each_curve.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using proto::CurveForm;
@@ -255,4 +255,4 @@ Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& w
   return collector.finish();
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

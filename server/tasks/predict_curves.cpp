@@ -3,10 +3,10 @@
 
 #include "core/base/pace.h"
 #include "core/curves/piecewise.h"
-#include "server/handlers/compute_curves.h"
-#include "server/handlers/each_curve.h"
+#include "server/tasks/compute_curves.h"
+#include "server/tasks/each_curve.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using proto::CurveForm;
@@ -201,4 +201,4 @@ Result<Count> predict_curve_task(const CurveRequest& request, Count most, const 
                .allowed = most};
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

@@ -1,11 +1,12 @@
 #pragma once
-// How long the phases of a request took, for the Server-Timing header: bodies hold nothing that varies.
+// How long the phases of a request took. Bodies hold nothing that varies; the daemon tells
+// these in a header.
 
 #include <chrono>
 #include <string>
 #include <string_view>
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 class Phases {
  public:
@@ -20,4 +21,4 @@ class Phases {
   std::string header_;
 };
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

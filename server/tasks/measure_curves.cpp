@@ -3,11 +3,11 @@
 #include <variant>
 
 #include "core/curves/flatten_subdivided.h"
-#include "server/handlers/compute_curves.h"
-#include "server/handlers/each_curve.h"
-#include "server/handlers/evaluable_curve.h"
+#include "server/tasks/compute_curves.h"
+#include "server/tasks/each_curve.h"
+#include "server/tasks/evaluable_curve.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using proto::CurveMeasure;
@@ -132,4 +132,4 @@ Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, 
   return all;
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

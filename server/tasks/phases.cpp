@@ -1,9 +1,9 @@
-#include "server/handlers/phases.h"
+#include "server/tasks/phases.h"
 
 #include <array>
 #include <cstdio>
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 void Phases::end(std::string_view name) {
   const Clock::time_point now = Clock::now();
@@ -16,4 +16,4 @@ void Phases::end(std::string_view name) {
   began_ = now;
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

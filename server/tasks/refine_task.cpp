@@ -1,5 +1,7 @@
-#include "server/handlers/compute.h"
+#include "server/tasks/refine_task.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "core/curves/subdivision.h"
@@ -8,9 +10,10 @@
 #include "core/oracle/far_surfaces.h"
 #include "core/oracle/verify.h"
 #include "core/refine/refine.h"
+#include "proto/decode.h"
 #include "proto/prepare.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 template <class Real>
@@ -18,18 +21,19 @@ Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request
                                              const std::vector<Plan>& plans, const Budget& budget) {
   proto::RefineAnswer<Real> answer;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto refined = refine<Real>(request.meshes[i], plans[i], proto::mesh_options(request), budget);
+    auto refined = subdivd::refine<Real>(request.meshes[i], plans[i], proto::mesh_options(request), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "meshes", i);
     answer.meshes.push_back(std::move(refined).value());
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
-    auto refined = refine<Real>(request.curves[i], proto::curve_options(request, request.curves[i]), budget);
+    auto refined =
+        subdivd::refine<Real>(request.curves[i], proto::curve_options(request, request.curves[i]), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "curves", i);
     answer.curves.push_back(std::move(refined).value());
   }
   for (std::size_t i = 0; i < request.surfaces.size(); ++i) {
     const ControlPatch& surface = request.surfaces[i];
-    auto refined = refine<Real>(surface, proto::patch_options(request, surface), budget);
+    auto refined = subdivd::refine<Real>(surface, proto::patch_options(request, surface), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "surfaces", i);
     answer.surfaces.push_back(std::move(refined).value());
   }
@@ -76,8 +80,6 @@ Result<proto::AnyAnswer> answer_in(const proto::RefineRequest& request, const st
   return proto::AnyAnswer(std::move(answer).value());
 }
 
-}  // namespace
-
 Result<proto::AnyAnswer> compute_refinement(const proto::RefineRequest& request,
                                             const std::vector<Plan>& plans, const Budget& budget,
                                             Phases& phases) {
@@ -105,4 +107,60 @@ Result<oracle::Report> compute_report(const proto::RefineRequest& request, const
              : verify_all<double>(request, plans, budget);
 }
 
-}  // namespace subdivd::server
+// Plans a request's meshes, and sets aside what it will take: to refine and to encode the answer, and to
+// verify, which refines both here and in OpenSubdiv.
+Result<std::vector<Plan>> plan_and_take(const proto::RefineRequest& request, bool answers, bool verifies,
+                                        const proto::Limits& limits, const Budget& budget) {
+  auto predicted = proto::predict_refine(request, limits, budget);
+  if (!predicted) return std::move(predicted).error();
+  Count bytes = 0;
+  if (answers) bytes += predicted->answer_bytes + predicted->working_bytes;
+  if (verifies) bytes += predicted->working_bytes + oracle_bytes(request);
+  if (auto taken = budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes)); !taken)
+    return std::move(taken).error();
+  return std::move(predicted->plans);
+}
+
+}  // namespace
+
+Result<proto::Payload> refine(const proto::RefineRequest& request, const proto::Limits& limits,
+                              const Budget& budget, Phases& phases) {
+  const auto plans = plan_and_take(request, true, request.options.verify, limits, budget);
+  if (!plans) return plans.error();
+  phases.end("plan");
+  auto answer = compute_refinement(request, *plans, budget, phases);
+  if (!answer) return std::move(answer).error();
+  auto payload = proto::encode_refine(request, *std::move(answer), budget);
+  phases.end("write");
+  return payload;
+}
+
+Result<proto::Payload> verify(const proto::RefineRequest& request, const proto::Limits& limits,
+                              const Budget& budget, Phases& phases) {
+  const auto plans = plan_and_take(request, false, true, limits, budget);
+  if (!plans) return plans.error();
+  phases.end("plan");
+  const auto report = compute_report(request, *plans, budget);
+  if (!report) return report.error();
+  phases.end("verify");
+  auto payload = proto::encode_report(request, *report, budget);
+  phases.end("write");
+  return payload;
+}
+
+bool self_test() {
+  // An open pyramid with a crease: an inner vertex of valence 5, a border, a semi-sharp edge.
+  constexpr std::string_view kMesh = R"({
+    "points": [[0,0,1], [1,0,0], [0.3,1,0], [-0.8,0.6,0], [-0.8,-0.6,0], [0.3,-1,0]],
+    "faceVertexIndices": [0,1,2, 0,2,3, 0,3,4, 0,4,5, 0,5,1],
+    "creaseIndices": [0,1], "creaseLengths": [2], "creaseSharpnesses": [1.5],
+    "options": {"level": 3, "limit": true, "normals": true}})";
+  const auto decoded = proto::decode_refine(kMesh, proto::BodyKind::json, {}, proto::Limits{});
+  if (!decoded) return false;
+  const auto predicted = proto::predict_refine(*decoded, proto::Limits{});
+  if (!predicted) return false;
+  const auto report = compute_report(*decoded, predicted->plans, Budget{});
+  return report.ok() && report->verdict() == oracle::Verdict::passed;
+}
+
+}  // namespace subdivd::server::tasks

@@ -13,9 +13,9 @@
 #include "core/splines/arc_length.h"
 #include "proto/curve_task.h"
 #include "proto/prepare.h"
-#include "server/handlers/reused_memory.h"
+#include "server/tasks/reused_memory.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 
 // What one curve may take: a smooth one far less, one of many spans in proportion.
 inline Count most_polyline_points(Count points) { return std::max(Count{1} << 16, 64 * points); }
@@ -69,4 +69,4 @@ Result<void> for_each_curve(const proto::CurveRequest& request, ReusedMemory& me
   return {};
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

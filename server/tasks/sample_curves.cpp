@@ -11,12 +11,12 @@
 #include "core/splines/growing_memory.h"
 #include "core/surfaces/patch.h"
 #include "proto/prepare.h"
-#include "server/handlers/compute_curves.h"
-#include "server/handlers/each_curve.h"
-#include "server/handlers/evaluable_curve.h"
-#include "server/handlers/reused_memory.h"
+#include "server/tasks/compute_curves.h"
+#include "server/tasks/each_curve.h"
+#include "server/tasks/evaluable_curve.h"
+#include "server/tasks/reused_memory.h"
 
-namespace subdivd::server {
+namespace subdivd::server::tasks {
 namespace {
 
 using proto::CurveRequest;
@@ -237,4 +237,4 @@ Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& reques
   return samples;
 }
 
-}  // namespace subdivd::server
+}  // namespace subdivd::server::tasks

@@ -1,4 +1,4 @@
-#include "server/handlers/geometry.h"
+#include "server/geometry_handlers.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,17 +9,18 @@
 #include "core/analysis/spectrum.h"
 #include "proto/decode.h"
 #include "proto/schemes.h"
-#include "server/handlers/compute.h"
-#include "server/handlers/compute_curves.h"
-#include "server/handlers/phases.h"
 #include "server/negotiation.h"
 #include "server/router.h"
 #include "server/status.h"
+#include "server/tasks/curve_task.h"
+#include "server/tasks/phases.h"
+#include "server/tasks/refine_task.h"
 
 namespace subdivd::server {
 namespace {
 
 using Clock = Budget::Clock;
+using tasks::Phases;
 
 // What a body may have to begin in the lane of small requests.
 constexpr std::size_t kSmallBody = std::size_t{64} << 10;
@@ -77,50 +78,11 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
   return problem_response(Error{ErrorCode::cancelled, "the caller went away"});
 }
 
-// Plans a request's meshes, and sets aside what it will take: to refine and to encode the answer, and to
-// verify, which refines both here and in OpenSubdiv.
-Result<std::vector<Plan>> plan_and_take(const proto::RefineRequest& request, bool answers, bool verifies,
-                                        const proto::Limits& limits, const Budget& budget) {
-  auto predicted = proto::predict_refine(request, limits, budget);
-  if (!predicted) return std::move(predicted).error();
-  Count bytes = 0;
-  if (answers) bytes += predicted->answer_bytes + predicted->working_bytes;
-  if (verifies) bytes += predicted->working_bytes + oracle_bytes(request);
-  if (auto taken = budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes)); !taken)
-    return std::move(taken).error();
-  return std::move(predicted->plans);
-}
-
 // ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
 bool choose_format(const Request& request, proto::RefineRequest& decoded) {
   if (decoded.options.format) return true;
   decoded.options.format = preferred_format(request, decoded.input);
   return decoded.options.format.has_value();
-}
-
-Result<proto::Payload> answer_curve_task(const proto::CurveRequest& request, const Budget& budget) {
-  switch (request.task.kind) {
-    case proto::CurveTaskKind::evaluate: {
-      if (request.task.on_surfaces) {
-        auto samples = compute_surface_samples(request, budget);
-        if (!samples) return std::move(samples).error();
-        return proto::encode_samples(request, *samples, budget);
-      }
-      auto samples = compute_samples(request, budget);
-      if (!samples) return std::move(samples).error();
-      return proto::encode_samples(request, *samples, budget);
-    }
-    case proto::CurveTaskKind::measure: {
-      auto measures = compute_measures(request, budget);
-      if (!measures) return std::move(measures).error();
-      return proto::encode_measures(request, *measures, budget);
-    }
-    default: {
-      auto edited = compute_edited(request, budget);
-      if (!edited) return std::move(edited).error();
-      return proto::encode_edited(request, *std::move(edited), budget);
-    }
-  }
 }
 
 Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits,
@@ -183,14 +145,8 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
   if (!choose_format(request, *decoded))
     return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
   phases.end("read");
-  const auto plans = plan_and_take(*decoded, true, decoded->options.verify, limits_, budget);
-  if (!plans) return plans.error();
-  phases.end("plan");
-  auto answer = compute_refinement(*decoded, *plans, budget, phases);
-  if (!answer) return std::move(answer).error();
-  auto payload = proto::encode_refine(*decoded, *std::move(answer), budget);
+  auto payload = tasks::refine(*decoded, limits_, budget, phases);
   if (!payload) return std::move(payload).error();
-  phases.end("write");
   return payload_response(*std::move(payload), phases);
 }
 
@@ -205,15 +161,8 @@ Response GeometryHandlers::verify(Request& request) {
     const auto decoded = decode_any(request, limits_, budget);
     if (!decoded) return decoded.error();
     phases.end("read");
-    const auto plans = plan_and_take(*decoded, false, true, limits_, budget);
-    if (!plans) return plans.error();
-    phases.end("plan");
-    const auto report = compute_report(*decoded, *plans, budget);
-    if (!report) return report.error();
-    phases.end("verify");
-    auto payload = proto::encode_report(*decoded, *report, budget);
+    auto payload = tasks::verify(*decoded, limits_, budget, phases);
     if (!payload) return std::move(payload).error();
-    phases.end("write");
     return payload_response(*std::move(payload), phases);
   });
 }
@@ -227,13 +176,9 @@ Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
     Phases phases;
     const auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
     if (!decoded) return decoded.error();
-    const auto bytes = predict_curve_task(*decoded, limits_.max_output_bytes, budget);
-    if (!bytes) return bytes.error();
-    if (auto taken = budget.take_memory(*bytes); !taken) return std::move(taken).error();
     phases.end("read");
-    auto payload = answer_curve_task(*decoded, budget);
+    auto payload = tasks::answer_curves(*decoded, limits_, budget, phases);
     if (!payload) return std::move(payload).error();
-    phases.end("compute");
     return payload_response(*std::move(payload), phases);
   });
 }
@@ -272,21 +217,6 @@ std::optional<Response> screen_body(const Request& head, bool takes_gltf) {
   const bool gltf = kind == proto::BodyKind::glb || kind == proto::BodyKind::gltf;
   if (!kind || (gltf && !takes_gltf)) return not_of_this_kind(takes_gltf);
   return std::nullopt;
-}
-
-bool self_test() {
-  // An open pyramid with a crease: an inner vertex of valence 5, a border, a semi-sharp edge.
-  constexpr std::string_view kMesh = R"({
-    "points": [[0,0,1], [1,0,0], [0.3,1,0], [-0.8,0.6,0], [-0.8,-0.6,0], [0.3,-1,0]],
-    "faceVertexIndices": [0,1,2, 0,2,3, 0,3,4, 0,4,5, 0,5,1],
-    "creaseIndices": [0,1], "creaseLengths": [2], "creaseSharpnesses": [1.5],
-    "options": {"level": 3, "limit": true, "normals": true}})";
-  const auto decoded = proto::decode_refine(kMesh, proto::BodyKind::json, {}, proto::Limits{});
-  if (!decoded) return false;
-  const auto predicted = proto::predict_refine(*decoded, proto::Limits{});
-  if (!predicted) return false;
-  const auto report = compute_report(*decoded, predicted->plans, Budget{});
-  return report.ok() && report->verdict() == oracle::Verdict::passed;
 }
 
 }  // namespace subdivd::server

@@ -1,5 +1,5 @@
 #pragma once
-// All POST requests: a grant, then decode, predict, compute, encode within it.
+// All POST requests: a grant, then a task (server/tasks) within it.
 
 #include <functional>
 #include <memory>
@@ -45,8 +45,5 @@ class GeometryHandlers {
 
 // What a request's head already tells about its body: a refusal (415), or nothing.
 std::optional<Response> screen_body(const Request& head, bool takes_gltf);
-
-// Sends a small mesh through decoding, refinement and the oracle; false when anything is not as it must be.
-bool self_test();
 
 }  // namespace subdivd::server
