@@ -32,7 +32,7 @@ struct Sides {
   const FarLevel<Real>& far;
   const Correspondence& pairs;
   PointScale scale;
-  Poller& poller;
+  const Pace& pace;
   double value_tolerance = 0;  // of primvars, and of positions near the origin
 
   DeviationMeter meter(std::string quantity, double unit_size, double tolerance) const {
@@ -43,7 +43,7 @@ struct Sides {
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
     for (Index v = 0; v < pairs.vertices.size(); ++v) {
-      poller.spend(8);
+      pace.spend(8);
       if (pairs.vertices[v] != kNoIndex) visit(v, pairs.vertices[v]);
     }
   }
@@ -136,10 +136,10 @@ double largest_difference(const Real* a, const Real* b, Index width, double scal
   return largest;
 }
 
-double primvar_scale(const Primvar& primvar, Poller& poller) {
+double primvar_scale(const Primvar& primvar, const Pace& pace) {
   double largest = 0;
   for (const double value : primvar.values) {
-    poller.spend(1);
+    pace.spend(1);
     largest = std::max(largest, std::abs(value));
   }
   return largest > 0 ? largest : 1;
@@ -159,7 +159,7 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
       break;
     case Interpolation::uniform:
       for (Index f = 0; f < sides.pairs.triangles.size(); ++f) {
-        sides.poller.spend(8);
+        sides.pace.spend(8);
         if (const Index t = sides.pairs.triangles[f]; t != kNoIndex)
           visit(Site{kNoIndex,
                      {sides.far.base_faces[f], sides.far.corners[3 * f].i, sides.far.corners[3 * f].j}},
@@ -168,7 +168,7 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
       break;
     case Interpolation::face_varying:
       for (Index c = 0; c < sides.pairs.corners.size(); ++c) {
-        sides.poller.spend(8);
+        sides.pace.spend(8);
         if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
           visit(Site{sides.ours.triangles[corner],
                      {sides.far.base_faces[c / 3], sides.far.corners[c].i, sides.far.corners[c].j}},
@@ -197,7 +197,7 @@ bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, std::s
   }
   return ours.indices.size() == sides.ours.triangles.size() &&
          std::all_of(ours.indices.begin(), ours.indices.end(), [&](Index index) {
-           sides.poller.spend(1);
+           sides.pace.spend(1);
            return index < our_values.size() / width;
          });
 }
@@ -218,7 +218,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
       !complete(sides, ours, our_values, far_values))
     return incomparable(quantity, tolerance);
 
-  const double scale = primvar_scale(control, sides.poller);
+  const double scale = primvar_scale(control, sides.pace);
   DeviationMeter meter = sides.meter(quantity, scale, tolerance);
   const std::size_t width = control.element_size;
   for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
@@ -226,7 +226,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
         limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
     if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
     if (objection != nullptr) return meter.except(objection);
-    sides.poller.spend(width);
+    sides.pace.spend(width);
     meter.add(largest_difference(&our_values[v * width], &far_values[f * width], control.element_size, scale),
               site);
   });
@@ -237,12 +237,11 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
 
 template <class Real>
 LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far,
-                    Poller& poller) {
+                    const Pace& pace) {
   const Correspondence pairs =
-      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far, poller);
-  Sides<Real> sides{
-      mesh, ours, far, pairs, point_scale(mesh.points, 3, poller), poller, value_tolerance<Real>()};
-  if (sharpness_rounds(mesh, poller))
+      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far, pace);
+  Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3, pace), pace, value_tolerance<Real>()};
+  if (sharpness_rounds(mesh, pace))
     sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
   LevelReport report;
   report.level = far.level;
@@ -261,8 +260,9 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
   return report;
 }
 
-template LevelReport compare(const ControlMesh&, const RefinedMesh<float>&, const FarLevel<float>&, Poller&);
+template LevelReport compare(const ControlMesh&, const RefinedMesh<float>&, const FarLevel<float>&,
+                             const Pace&);
 template LevelReport compare(const ControlMesh&, const RefinedMesh<double>&, const FarLevel<double>&,
-                             Poller&);
+                             const Pace&);
 
 }  // namespace subdivd::oracle

@@ -12,7 +12,7 @@ namespace {
 template <class Real>
 Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, const Buffer<Real>& values,
                          const FarCurves& far, const Buffer<double>& far_values, const PointScale& scale,
-                         bool trimmed, Poller& poller) {
+                         bool trimmed, const Pace& pace) {
   const Count n = segments(ours.level);
   const Count skipped = ours.wrap == CurveWrap::nonperiodic ? n - 1 : 0;
   DeviationMeter meter(quantity, scale.diagonal, value_tolerance<Real>() * scale.remoteness, 1);
@@ -20,7 +20,7 @@ Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, 
   for (Index c = 0; c < ours.vertex_counts.size(); ++c) {
     const Index count = ours.vertex_counts[c];
     for (Index i = 0; i < count; ++i) {
-      poller.spend(8 + ours.width);
+      pace.spend(8 + ours.width);
       if (trimmed && (i == 0 || i + 1 == count)) {
         meter.except("the first and last point of a nonperiodic curve begin no segment");
         continue;
@@ -42,12 +42,12 @@ Deviation compare_curves(const char* quantity, const RefinedCurves<Real>& ours, 
 }
 
 template <class Real>
-bool same_counts(const RefinedCurves<Real>& ours, const FarCurves& far, Poller& poller) {
+bool same_counts(const RefinedCurves<Real>& ours, const FarCurves& far, const Pace& pace) {
   if (ours.vertex_counts.size() != far.counts.size() || ours.width != far.width) return false;
   const Count shorter = ours.wrap == CurveWrap::nonperiodic ? 2 * (segments(ours.level) - 1) : 0;
   Count points = 0;
   for (std::size_t c = 0; c < far.counts.size(); ++c) {
-    poller.spend(1);
+    pace.spend(1);
     if (ours.vertex_counts[c] + shorter != far.counts[c]) return false;
     points += ours.vertex_counts[c];
   }
@@ -57,11 +57,11 @@ bool same_counts(const RefinedCurves<Real>& ours, const FarCurves& far, Poller& 
 
 // The curve and the parameter of the worst point.
 template <class Real>
-void locate(const RefinedCurves<Real>& ours, Deviation& deviation, Poller& poller) {
+void locate(const RefinedCurves<Real>& ours, Deviation& deviation, const Pace& pace) {
   if (deviation.worst_vertex == kNoIndex) return;
   Index first = 0, curve = 0;
   while (deviation.worst_vertex - first >= ours.vertex_counts[curve]) {
-    poller.spend(1);
+    pace.spend(1);
     first += ours.vertex_counts[curve++];
   }
   const double n = static_cast<double>(segments(ours.level));
@@ -74,23 +74,23 @@ void locate(const RefinedCurves<Real>& ours, Deviation& deviation, Poller& polle
 
 template <class Real>
 LevelReport compare(const RefinedCurves<Real>& ours, const FarCurves& far, const PointScale& scale,
-                    Poller& poller) {
+                    const Pace& pace) {
   LevelReport report;
   report.level = ours.level;
   report.vertices = ours.points.size() / ours.width;
-  report.connectivity_identical = same_counts(ours, far, poller);
+  report.connectivity_identical = same_counts(ours, far, pace);
   if (!report.connectivity_identical) return report;
   const bool nonperiodic = ours.wrap == CurveWrap::nonperiodic;
   report.deviations.push_back(
-      compare_curves("points", ours, ours.points, far, far.points, scale, false, poller));
+      compare_curves("points", ours, ours.points, far, far.points, scale, false, pace));
   if (!ours.limit_points.empty())
     report.deviations.push_back(
-        compare_curves("limitPoints", ours, ours.limit_points, far, far.limits, scale, nonperiodic, poller));
-  for (Deviation& deviation : report.deviations) locate(ours, deviation, poller);
+        compare_curves("limitPoints", ours, ours.limit_points, far, far.limits, scale, nonperiodic, pace));
+  for (Deviation& deviation : report.deviations) locate(ours, deviation, pace);
   return report;
 }
 
-template LevelReport compare(const RefinedCurves<float>&, const FarCurves&, const PointScale&, Poller&);
-template LevelReport compare(const RefinedCurves<double>&, const FarCurves&, const PointScale&, Poller&);
+template LevelReport compare(const RefinedCurves<float>&, const FarCurves&, const PointScale&, const Pace&);
+template LevelReport compare(const RefinedCurves<double>&, const FarCurves&, const PointScale&, const Pace&);
 
 }  // namespace subdivd::oracle

@@ -28,7 +28,7 @@ struct Sides {
   // A nonperiodic direction is the part of the pinned one that starts at its point 2^level - 1.
   Count skipped_u = 0, skipped_v = 0;
   PointScale scale;
-  Poller& poller;
+  const Pace& pace;
 
   DeviationMeter meter(const char* quantity, double unit_size, double tolerance) const {
     return {quantity, unit_size, tolerance, 1};
@@ -43,7 +43,7 @@ struct Sides {
   void for_each_pair(Visit&& visit) const {
     for (Count j = 0; j < ours.v_count; ++j)
       for (Count i = 0; i < ours.u_count; ++i) {
-        poller.spend(8 + ours.width);
+        pace.spend(8 + ours.width);
         visit(j * ours.u_count + i, (j + skipped_v) * far.u.points + i + skipped_u, beyond_surface(i, j));
       }
   }
@@ -95,26 +95,26 @@ Index our_number(const Sides<Real>& sides, Index far_point) {
 
 // In ascending order: by their first corners, of which each is that of a few, then by all. Linear, and
 // polled.
-Buffer<Quad> sorted(const Buffer<Quad>& quads, Count points, Poller& poller) {
+Buffer<Quad> sorted(const Buffer<Quad>& quads, Count points, const Pace& pace) {
   std::vector<Index> ends(points, 0);  // of every first corner's quads
   for (const Quad& quad : quads) {
-    poller.spend(1);
+    pace.spend(1);
     ++ends[quad[0]];
   }
   Index end = 0;
   for (Index& count : ends) {
-    poller.spend(1);
+    pace.spend(1);
     end += std::exchange(count, end);
   }
   Buffer<Quad> result(quads.size());
   for (const Quad& quad : quads) {
-    poller.spend(2);
+    pace.spend(2);
     result[ends[quad[0]]++] = quad;
   }
   auto begin = result.begin();
   for (const Index last : ends) {
     const auto next = result.begin() + std::ptrdiff_t{last};
-    poller.spend(1 + static_cast<Count>(next - begin));
+    pace.spend(1 + static_cast<Count>(next - begin));
     std::sort(begin, next);
     begin = next;
   }
@@ -129,19 +129,19 @@ bool same_quads(const Sides<Real>& sides) {
   Buffer<Quad> mine, theirs;
   mine.reserve(ours.faces.size() / 4);
   for (std::size_t k = 0; k < ours.faces.size(); k += 4) {
-    sides.poller.spend(4);
+    sides.pace.spend(4);
     mine.push_back(canonical({ours.faces[k], ours.faces[k + 1], ours.faces[k + 2], ours.faces[k + 3]}));
     if (mine.back()[0] >= sides.points()) return false;
   }
   theirs.reserve(mine.size());
   for (std::size_t k = 0; k + 3 < sides.far.quads.size(); k += 4) {
     Quad quad;
-    sides.poller.spend(8);
+    sides.pace.spend(8);
     for (std::size_t c = 0; c < 4; ++c) quad[c] = our_number(sides, sides.far.quads[k + c]);
     if (std::find(quad.begin(), quad.end(), kNoIndex) == quad.end()) theirs.push_back(canonical(quad));
   }
   if (mine.size() != theirs.size()) return false;
-  return sorted(mine, sides.points(), sides.poller) == sorted(theirs, sides.points(), sides.poller);
+  return sorted(mine, sides.points(), sides.pace) == sorted(theirs, sides.points(), sides.pace);
 }
 
 // Distances of points or limit points.
@@ -220,14 +220,14 @@ void locate(const Sides<Real>& sides, Deviation& deviation) {
 
 template <class Real>
 LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, const FarSurface& far,
-                    Poller& poller) {
+                    const Pace& pace) {
   const Sides<Real> sides{patch,
                           ours,
                           far,
                           skipped(patch.u_wrap, ours.level),
                           skipped(patch.v_wrap, ours.level),
-                          point_scale(patch.points, patch.width, poller),
-                          poller};
+                          point_scale(patch.points, patch.width, pace),
+                          pace};
   LevelReport report;
   report.level = ours.level;
   report.vertices = sides.points();
@@ -242,7 +242,8 @@ LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, c
   return report;
 }
 
-template LevelReport compare(const ControlPatch&, const RefinedPatch<float>&, const FarSurface&, Poller&);
-template LevelReport compare(const ControlPatch&, const RefinedPatch<double>&, const FarSurface&, Poller&);
+template LevelReport compare(const ControlPatch&, const RefinedPatch<float>&, const FarSurface&, const Pace&);
+template LevelReport compare(const ControlPatch&, const RefinedPatch<double>&, const FarSurface&,
+                             const Pace&);
 
 }  // namespace subdivd::oracle

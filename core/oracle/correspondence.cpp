@@ -28,10 +28,10 @@ class VertexOfPlace {
     const Count slot = place.face * per_face_ + j * (n_ + 1) - (j * j - j) / 2 + i;  // rows of n + 1, n, ...
     return slot < faces_.size() ? &faces_[slot] : nullptr;
   }
-  void clear(Poller& poller) {
+  void clear(const Pace& pace) {
     for (auto* table : {&faces_, &points_})
       for (Index& vertex : *table) {
-        poller.spend(1);
+        pace.spend(1);
         vertex = kNoIndex;
       }
   }
@@ -43,10 +43,10 @@ class VertexOfPlace {
 
 // Our vertex at each place. The number of one that is unreferenced is that of its control point, as in the
 // input. False when one of our vertices is nowhere, or two claim one place.
-bool list_places(const OurConnectivity& ours, VertexOfPlace& vertex_of, Poller& poller) {
+bool list_places(const OurConnectivity& ours, VertexOfPlace& vertex_of, const Pace& pace) {
   bool unique = true;
   for (Index v = 0; v < ours.provenance.size(); ++v) {
-    poller.spend(2);
+    pace.spend(2);
     Provenance place = ours.provenance[v];
     if (place.face == kNoIndex) place.i = v;
     Index* slot = vertex_of.at(place);
@@ -59,10 +59,10 @@ bool list_places(const OurConnectivity& ours, VertexOfPlace& vertex_of, Poller& 
 }
 
 template <class Real>
-Index base_face_count(const FarLevel<Real>& far, Poller& poller) {
+Index base_face_count(const FarLevel<Real>& far, const Pace& pace) {
   Index count = 0;
   for (const Index face : far.base_faces) {
-    poller.spend(1);
+    pace.spend(1);
     count = std::max(count, face + 1);
   }
   return count;
@@ -70,13 +70,13 @@ Index base_face_count(const FarLevel<Real>& far, Poller& poller) {
 
 template <class Real>
 bool match_vertices(const OurConnectivity& ours, const FarLevel<Real>& far, Buffer<Index>& partner,
-                    Poller& poller) {
-  VertexOfPlace vertex_of(far.level, base_face_count(far, poller), far.base_points);
-  vertex_of.clear(poller);
-  bool identical = list_places(ours, vertex_of, poller) && ours.provenance.size() == far.vertices.size();
+                    const Pace& pace) {
+  VertexOfPlace vertex_of(far.level, base_face_count(far, pace), far.base_points);
+  vertex_of.clear(pace);
+  bool identical = list_places(ours, vertex_of, pace) && ours.provenance.size() == far.vertices.size();
   partner.resize(far.vertices.size());
   for (std::size_t v = 0; v < far.vertices.size(); ++v) {
-    poller.spend(2);
+    pace.spend(2);
     Index* slot = vertex_of.at(far.vertices[v].place);
     partner[v] = slot == nullptr ? kNoIndex : std::exchange(*slot, kNoIndex);  // a second one finds nothing
     identical &= partner[v] != kNoIndex;
@@ -87,15 +87,15 @@ bool match_vertices(const OurConnectivity& ours, const FarLevel<Real>& far, Buff
 // First triangle of every base face's block of n^2; kNoIndex for faces that are left out. Blocks that are
 // torn or of another size are left out too: their triangles then find no partner.
 template <class Real>
-std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller) {
-  const Index base_faces = base_face_count(far, poller);
+std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<Real>& far, const Pace& pace) {
+  const Index base_faces = base_face_count(far, pace);
   std::vector<Index> blocks(base_faces, kNoIndex);
   const Count size = segments(ours.level) * segments(ours.level);
   const std::span<const Index> faces = ours.triangle_faces;
   for (Count begin = 0; begin < faces.size();) {
     Count end = begin;
     while (end < faces.size() && faces[end] == faces[begin]) ++end;
-    poller.spend(end - begin);
+    pace.spend(end - begin);
     if (end - begin == size && faces[begin] < base_faces) blocks[faces[begin]] = static_cast<Index>(begin);
     begin = end;
   }
@@ -126,17 +126,17 @@ Index rotation(const std::array<Index, 3>& far_corners, std::span<const Index> o
 
 template <class Real>
 bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Correspondence& result,
-                     Poller& poller) {
+                     const Pace& pace) {
   const Count n = segments(ours.level);
   const Count faces = far.base_faces.size(), triangles = ours.triangle_faces.size();
-  const std::vector<Index> blocks = triangle_blocks(ours, far, poller);
+  const std::vector<Index> blocks = triangle_blocks(ours, far, pace);
   result.triangles.resize(faces);
   result.corners.resize(3 * faces);
   const bool identical = ours.triangles.size() == 3 * triangles;
   std::vector<unsigned char> taken(triangles, 0);
   Count visible = 0, matched = 0;
   for (Count f = 0; f < faces; ++f) {
-    poller.spend(6);
+    pace.spend(6);
     result.triangles[f] = kNoIndex;
     std::fill_n(result.corners.begin() + static_cast<std::ptrdiff_t>(3 * f), 3, kNoIndex);
     if (far.holes[f] != 0) continue;
@@ -160,15 +160,15 @@ bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Cor
 }  // namespace
 
 template <class Real>
-Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller) {
+Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, const Pace& pace) {
   Correspondence result;
-  const bool same_vertices = match_vertices(ours, far, result.vertices, poller);
-  const bool same_triangles = match_triangles(ours, far, result, poller);
+  const bool same_vertices = match_vertices(ours, far, result.vertices, pace);
+  const bool same_triangles = match_triangles(ours, far, result, pace);
   result.identical = ours.level == far.level && same_vertices && same_triangles;
   return result;
 }
 
-template Correspondence match(const OurConnectivity&, const FarLevel<float>&, Poller&);
-template Correspondence match(const OurConnectivity&, const FarLevel<double>&, Poller&);
+template Correspondence match(const OurConnectivity&, const FarLevel<float>&, const Pace&);
+template Correspondence match(const OurConnectivity&, const FarLevel<double>&, const Pace&);
 
 }  // namespace subdivd::oracle

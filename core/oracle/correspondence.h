@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/base/buffer.h"
+#include "core/base/pace.h"
 #include "core/oracle/far.h"
-#include "core/oracle/poller.h"
 #include "core/refine/refined_mesh.h"
 
 namespace subdivd::oracle {
@@ -31,6 +31,6 @@ struct Correspondence {
 
 // Throws Stopped.
 template <class Real>
-Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, Poller& poller);
+Correspondence match(const OurConnectivity& ours, const FarLevel<Real>& far, const Pace& pace);
 
 }  // namespace subdivd::oracle

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/pace.h"
 #include "core/oracle/far_cost.h"
 #include "core/oracle/far_grid.h"
 #include "core/oracle/far_quirks.h"
 #include "core/oracle/far_refiner.h"
 #include "core/oracle/far_rows.h"
-#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 namespace {
@@ -20,12 +20,12 @@ namespace Sdc = OpenSubdiv::Sdc;
 
 // Values spread out by their indices; without indices as they stand.
 template <class Real, class Indices>
-Buffer<Real> spread(Buffer<Real> values, const Indices& indices, Index width, Poller& poller) {
+Buffer<Real> spread(Buffer<Real> values, const Indices& indices, Index width, const Pace& pace) {
   if (indices.empty()) return values;
   Buffer<Real> result(std::size_t{width} * indices.size());
   auto to = result.begin();
   for (const Index index : indices) {
-    poller.spend(width);
+    pace.spend(width);
     to = std::copy_n(values.begin() + std::ptrdiff_t{index} * width, width, to);
   }
   return result;
@@ -58,12 +58,12 @@ FarVertex describe(const Far::TopologyLevel& level, int vertex) {
 
 // The lowest base face of every vertex and the place there; the corners must stand in `result`.
 template <class Real>
-void take_faces(const Far::TopologyLevel& level, FarLevel<Real>& result, Poller& poller) {
+void take_faces(const Far::TopologyLevel& level, FarLevel<Real>& result, const Pace& pace) {
   const auto faces = static_cast<std::size_t>(level.GetNumFaces());
   result.faces.resize(3 * faces);
   result.holes.resize(faces);
   for (std::size_t face = 0; face < faces; ++face) {
-    poller.spend(4);
+    pace.spend(4);
     const Far::ConstIndexArray vertices = level.GetFaceVertices(static_cast<int>(face));
     const Index base = result.base_faces[face];
     for (int k = 0; k < 3; ++k) {
@@ -79,21 +79,22 @@ void take_faces(const Far::TopologyLevel& level, FarLevel<Real>& result, Poller&
 
 // Everything about one level but values.
 template <class Real>
-void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Real>& result, Poller& poller) {
-  FarGrid grid = grid_of(refiner, depth, poller);
+void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Real>& result,
+                   const Pace& pace) {
+  FarGrid grid = grid_of(refiner, depth, pace);
   result.corners = std::move(grid.corners);
   result.base_faces = std::move(grid.base_faces);
   const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(depth));
   result.vertices.reserve(static_cast<std::size_t>(level.GetNumVertices()));
   for (int v = 0; v < level.GetNumVertices(); ++v) {
-    poller.spend(4 + static_cast<Count>(level.GetVertexEdges(v).size()));
+    pace.spend(4 + static_cast<Count>(level.GetVertexEdges(v).size()));
     result.vertices.push_back(describe(level, v));
   }
-  take_faces(level, result, poller);
+  take_faces(level, result, pace);
 
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   for (int v = 0; v < base.GetNumVertices(); ++v) {  // unreferenced points
-    poller.spend(1 + depth);
+    pace.spend(1 + depth);
     if (base.GetVertexFaces(v).size() != 0) continue;
     int child = v;
     for (int l = 0; l < static_cast<int>(depth); ++l) child = refiner.GetLevel(l).GetVertexChildVertex(child);
@@ -106,15 +107,15 @@ enum class Carrier { vertex, varying, face_varying };
 
 template <class Real>
 Buffer<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, Carrier carrier, int channel,
-                         Buffer<Real> values, Index width, Poller& poller) {
+                         Buffer<Real> values, Index width, const Pace& pace) {
   const Far::PrimvarRefinerReal<Real> primvars(refiner);
   for (int l = 1; l <= static_cast<int>(depth); ++l) {
     const Far::TopologyLevel& level = refiner.GetLevel(l);
     const int count =
         carrier == Carrier::face_varying ? level.GetNumFVarValues(channel) : level.GetNumVertices();
     Buffer<Real> next(static_cast<std::size_t>(count) * width);
-    const Rows<Real> from(values, width, poller);
-    Rows<Real> to(next, width, poller);
+    const Rows<Real> from(values, width, pace);
+    Rows<Real> to(next, width, pace);
     switch (carrier) {
       case Carrier::vertex:
         primvars.Interpolate(l, from, to);
@@ -132,71 +133,72 @@ Buffer<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, Carri
 }
 
 template <class Real>
-Buffer<Real> limits(const Far::TopologyRefiner& refiner, Buffer<Real>& values, Index width, Poller& poller) {
+Buffer<Real> limits(const Far::TopologyRefiner& refiner, Buffer<Real>& values, Index width,
+                    const Pace& pace) {
   Buffer<Real> result(values.size());
-  Rows<Real> to(result, width, poller);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(values, width, poller), to);
+  Rows<Real> to(result, width, pace);
+  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(values, width, pace), to);
   return result;
 }
 
 template <class Real>
-void take_limit_frame(const Far::TopologyRefiner& refiner, FarLevel<Real>& result, Poller& poller) {
+void take_limit_frame(const Far::TopologyRefiner& refiner, FarLevel<Real>& result, const Pace& pace) {
   const std::size_t size = result.points.size();
   result.limit_points.resize(size);
   result.tangents_u.resize(size);
   result.tangents_v.resize(size);
-  Rows<Real> limit(result.limit_points, 3, poller), u(result.tangents_u, 3, poller),
-      v(result.tangents_v, 3, poller);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(result.points, 3, poller), limit, u, v);
+  Rows<Real> limit(result.limit_points, 3, pace), u(result.tangents_u, 3, pace),
+      v(result.tangents_v, 3, pace);
+  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(result.points, 3, pace), limit, u, v);
 }
 
 template <class Real>
 void take_face_varying(const Far::TopologyRefiner& refiner, const RefineOptions& options, int channel,
-                       Buffer<Real> control, Index width, FarPrimvar<Real>& result, Poller& poller) {
+                       Buffer<Real> control, Index width, FarPrimvar<Real>& result, const Pace& pace) {
   const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(options.level));
   result.values =
-      interpolate(refiner, options.level, Carrier::face_varying, channel, std::move(control), width, poller);
+      interpolate(refiner, options.level, Carrier::face_varying, channel, std::move(control), width, pace);
   result.indices.reserve(static_cast<std::size_t>(level.GetNumFaces()) * 3);
   for (int face = 0; face < level.GetNumFaces(); ++face) {
-    poller.spend(3);
+    pace.spend(3);
     const Far::ConstIndexArray values = level.GetFaceFVarValues(face, channel);
     for (int k = 0; k < 3; ++k) result.indices.push_back(static_cast<Index>(values[k]));
   }
-  result.torn_faces = faces_at_torn_values(refiner, channel, poller);
+  result.torn_faces = faces_at_torn_values(refiner, channel, pace);
   // At the control mesh LimitFaceVarying takes indices of values for indices of its own tags: wrong tags, and
   // a read past their end when values are left unused.
   if (!options.limit || options.level == 0) return;
   result.limit_values.resize(result.values.size());
-  Rows<Real> to(result.limit_values, width, poller);
-  Far::PrimvarRefinerReal<Real>(refiner).LimitFaceVarying(Rows<Real>(result.values, width, poller), to,
+  Rows<Real> to(result.limit_values, width, pace);
+  Far::PrimvarRefinerReal<Real>(refiner).LimitFaceVarying(Rows<Real>(result.values, width, pace), to,
                                                           channel);
 }
 
 template <class Real>
 Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const RefineOptions& options,
                                       const Primvar& primvar, int channel, const FarLevel<Real>& level,
-                                      Poller& poller) {
-  auto control = converted<Real>(primvar.values, {"primvars", primvar.name, "values"}, poller);
+                                      const Pace& pace) {
+  auto control = converted<Real>(primvar.values, {"primvars", primvar.name, "values"}, pace);
   if (!control) return control.error();
   const Index width = primvar.element_size;
   FarPrimvar<Real> result;
   if (primvar.interpolation == Interpolation::face_varying) {
-    take_face_varying(refiner, options, channel, std::move(*control), width, result, poller);
+    take_face_varying(refiner, options, channel, std::move(*control), width, result, pace);
     return result;
   }
-  result.values = spread(std::move(*control), primvar.indices, width, poller);
+  result.values = spread(std::move(*control), primvar.indices, width, pace);
   switch (primvar.interpolation) {
     case Interpolation::uniform:
-      result.values = spread(std::move(result.values), level.base_faces, width, poller);
+      result.values = spread(std::move(result.values), level.base_faces, width, pace);
       break;
     case Interpolation::vertex:
       result.values =
-          interpolate(refiner, options.level, Carrier::vertex, 0, std::move(result.values), width, poller);
-      if (options.limit) result.limit_values = limits(refiner, result.values, width, poller);
+          interpolate(refiner, options.level, Carrier::vertex, 0, std::move(result.values), width, pace);
+      if (options.limit) result.limit_values = limits(refiner, result.values, width, pace);
       break;
     case Interpolation::varying:
       result.values =
-          interpolate(refiner, options.level, Carrier::varying, 0, std::move(result.values), width, poller);
+          interpolate(refiner, options.level, Carrier::varying, 0, std::move(result.values), width, pace);
       break;
     default:
       break;
@@ -267,20 +269,20 @@ namespace {
 // The refiner has been refined to options.level.
 template <class Real>
 Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRefiner& refiner,
-                                  const RefineOptions& options, Poller& poller) {
+                                  const RefineOptions& options, const Pace& pace) {
   FarLevel<Real> result;
   result.level = options.level;
   result.base_points = static_cast<Index>(mesh.point_count());
-  take_topology(refiner, options.level, result, poller);
-  auto control = converted<Real>(mesh.points, {"points"}, poller);
+  take_topology(refiner, options.level, result, pace);
+  auto control = converted<Real>(mesh.points, {"points"}, pace);
   if (!control) return control.error();
-  result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3, poller);
-  if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result, poller);
+  result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3, pace);
+  if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result, pace);
 
   int channel = 0;
   for (const Primvar& primvar : mesh.primvars) {
-    poller.spend(1);
-    auto taken = take_primvar(refiner, options, primvar, channel, result, poller);
+    pace.spend(1);
+    auto taken = take_primvar(refiner, options, primvar, channel, result, pace);
     if (!taken) return taken.error();
     result.primvars.push_back(std::move(*taken));
     if (primvar.interpolation == Interpolation::face_varying) ++channel;
@@ -300,10 +302,8 @@ Result<FarLevel<Real>> FarMesh::refine(const RefineOptions& options, const Budge
   uniform.fullTopologyInLastLevel = true;
   far_has_complained();  // forget what came before
   refiner.RefineUniform(uniform);
-  auto result = stoppable([&] {
-    Poller poller(budget);
-    return take_level<Real>(*state_->mesh, refiner, options, poller);
-  });
+  auto result = stoppable(
+      budget, [&](const Pace& pace) { return take_level<Real>(*state_->mesh, refiner, options, pace); });
   refiner.Unrefine();  // its memory is needed for the comparison
   return result;
 }

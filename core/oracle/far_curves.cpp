@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "core/base/pace.h"
 #include "core/curves/subdivision.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_cost.h"
-#include "core/oracle/poller.h"
 #include "core/refine/split.h"
 
 //     B0 --- B1 --- B2 --- B3        The border A0 A1 A2 … of a strip of triangles follows the curve's rules
@@ -21,12 +21,12 @@ Index segments_of(const FarCurves& curves, std::size_t curve) {
 }
 
 void append_strip(const FarCurves& curves, std::size_t curve, Index first_point, ControlMesh& mesh,
-                  Poller& poller) {
+                  const Pace& pace) {
   const Index n = curves.counts[curve];
   const Index a = 2 * first_point, b = a + n;
   for (Index s = 0; s < segments_of(curves, curve); ++s) {
     const Index t = (s + 1) % n;
-    poller.spend(8 + 2 * curves.width);
+    pace.spend(8 + 2 * curves.width);
     mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(),
                                     {a + s, a + t, b + s, b + s, a + t, b + t});
   }
@@ -40,7 +40,7 @@ void append_strip(const FarCurves& curves, std::size_t curve, Index first_point,
     carried.values.insert(carried.values.end(), begin, begin + std::ptrdiff_t{n} * curves.width);
 }
 
-ControlMesh strips(const FarCurves& curves, Poller& poller) {
+ControlMesh strips(const FarCurves& curves, const Pace& pace) {
   ControlMesh mesh;
   mesh.points.resize(curves.points.size() / curves.width * 2 * 3);
   mesh.primvars.resize(1);
@@ -51,7 +51,7 @@ ControlMesh strips(const FarCurves& curves, Poller& poller) {
   mesh.primvars[0].element_size = curves.width;
   Index first = 0;
   for (std::size_t c = 0; c < curves.counts.size(); ++c) {
-    append_strip(curves, c, first, mesh, poller);
+    append_strip(curves, c, first, mesh, pace);
     first += curves.counts[c];
   }
   return mesh;
@@ -92,11 +92,11 @@ namespace {
 
 template <class Real>
 Result<FarCurves> refine_strips(const FarCurves& from, Index level, bool limit, const Budget& budget,
-                                Poller& poller) {
+                                const Pace& pace) {
   RefineOptions options;
   options.level = level;
   options.limit = limit;
-  const ControlMesh mesh = strips(from, poller);
+  const ControlMesh mesh = strips(from, pace);
   const auto far = far_refine<Real>(mesh, options, budget);
   if (!far) return far.error();
 
@@ -112,7 +112,7 @@ Result<FarCurves> refine_strips(const FarCurves& from, Index level, bool limit, 
     const Index segments_here = segments_of(from, c);
     const Index count = segments_here * n + (from.closed ? 0 : 1);
     to.counts.push_back(count);
-    poller.spend(1 + 2 * segments_here);
+    pace.spend(1 + 2 * segments_here);
     for (Index s = 0; s < segments_here; ++s) of_face.insert(of_face.end(), 2, {first, count, Count{s} * n});
     first += count;
   }
@@ -120,13 +120,13 @@ Result<FarCurves> refine_strips(const FarCurves& from, Index level, bool limit, 
   to.points.assign(first * width, 0);
   if (limit) to.limits.assign(first * width, 0);
   for (std::size_t corner = 0; corner < far->faces.size(); ++corner) {
-    poller.spend(2);
+    pace.spend(2);
     const Index face = far->base_faces[corner / 3];
     const GridPoint place = far->corners[corner];
     if (face % 2 != 0 || place.j != 0) continue;  // A_s A_{s+1} is edge 0 of every even face
     const Segment& segment = of_face[face];
     const Count point = segment.first + (segment.begin + place.i) % segment.count;
-    poller.spend(2 * width);
+    pace.spend(2 * width);
     for (std::size_t k = 0; k < width; ++k) {
       const std::size_t source = std::size_t{far->faces[corner]} * width + k;
       to.points[point * width + k] = double{far->primvars[0].values[source]};
@@ -140,10 +140,8 @@ Result<FarCurves> refine_strips(const FarCurves& from, Index level, bool limit, 
 
 template <class Real>
 Result<FarCurves> far_refine_curves(const FarCurves& from, Index level, bool limit, const Budget& budget) {
-  return stoppable([&] {
-    Poller poller(budget);
-    return refine_strips<Real>(from, level, limit, budget, poller);
-  });
+  return stoppable(budget,
+                   [&](const Pace& pace) { return refine_strips<Real>(from, level, limit, budget, pace); });
 }
 
 template Result<FarCurves> far_refine_curves<float>(const FarCurves&, Index, bool, const Budget&);

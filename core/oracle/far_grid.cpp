@@ -43,12 +43,12 @@ ChildPlaces child_places(const Far::TopologyLevel& parent, int face, std::span<c
   return children;
 }
 
-FarGrid base_grid(const Far::TopologyLevel& base, Poller& poller) {
+FarGrid base_grid(const Far::TopologyLevel& base, const Pace& pace) {
   FarGrid grid;
   grid.corners.reserve(static_cast<std::size_t>(base.GetNumFaces()) * 3);
   grid.base_faces.reserve(static_cast<std::size_t>(base.GetNumFaces()));
   for (int face = 0; face < base.GetNumFaces(); ++face) {
-    poller.spend(1);
+    pace.spend(1);
     grid.corners.insert(grid.corners.end(), {GridPoint{0, 0}, GridPoint{1, 0}, GridPoint{0, 1}});
     grid.base_faces.push_back(static_cast<Index>(face));
   }
@@ -56,12 +56,12 @@ FarGrid base_grid(const Far::TopologyLevel& base, Poller& poller) {
 }
 
 FarGrid child_grid(const FarGrid& grid, const Far::TopologyLevel& parent, const Far::TopologyLevel& child,
-                   Poller& poller) {
+                   const Pace& pace) {
   FarGrid next;
   next.corners.resize(static_cast<std::size_t>(child.GetNumFaces()) * 3);
   next.base_faces.resize(static_cast<std::size_t>(child.GetNumFaces()));
   for (int face = 0; face < parent.GetNumFaces(); ++face) {
-    poller.spend(16);
+    pace.spend(16);
     const auto f = static_cast<std::size_t>(face);
     const ChildPlaces places = child_places(parent, face, std::span(grid.corners).subspan(3 * f, 3));
     const Far::ConstIndexArray children = parent.GetFaceChildFaces(face);
@@ -78,10 +78,10 @@ FarGrid child_grid(const FarGrid& grid, const Far::TopologyLevel& parent, const 
 
 }  // namespace
 
-FarGrid grid_of(const Far::TopologyRefiner& refiner, Index depth, Poller& poller) {
-  FarGrid grid = base_grid(refiner.GetLevel(0), poller);
+FarGrid grid_of(const Far::TopologyRefiner& refiner, Index depth, const Pace& pace) {
+  FarGrid grid = base_grid(refiner.GetLevel(0), pace);
   for (int l = 0; l < static_cast<int>(depth); ++l)
-    grid = child_grid(grid, refiner.GetLevel(l), refiner.GetLevel(l + 1), poller);
+    grid = child_grid(grid, refiner.GetLevel(l), refiner.GetLevel(l + 1), pace);
   return grid;
 }
 

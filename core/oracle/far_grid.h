@@ -2,8 +2,8 @@
 // The place of every refined face corner on its base face, followed through Far's parent relations alone.
 
 #include "core/base/buffer.h"
+#include "core/base/pace.h"
 #include "core/oracle/far_refiner.h"
-#include "core/oracle/poller.h"
 #include "core/refine/split.h"
 
 namespace subdivd::oracle {
@@ -15,6 +15,6 @@ struct FarGrid {
 };
 
 // Of level `depth` of a refiner that has been refined that far. Throws Stopped.
-FarGrid grid_of(const OpenSubdiv::Far::TopologyRefiner& refiner, Index depth, Poller& poller);
+FarGrid grid_of(const OpenSubdiv::Far::TopologyRefiner& refiner, Index depth, const Pace& pace);
 
 }  // namespace subdivd::oracle

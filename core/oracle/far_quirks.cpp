@@ -32,11 +32,11 @@ bool takes_a_known_value_for_new(const std::vector<Far::Index>& values) {
 }  // namespace
 
 std::vector<unsigned char> faces_at_torn_values(const Far::TopologyRefiner& refiner, int channel,
-                                                Poller& poller) {
+                                                const Pace& pace) {
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   std::vector<unsigned char> flags;
   for (int vertex = 0; vertex < base.GetNumVertices(); ++vertex) {
-    poller.spend(4 + static_cast<Count>(base.GetVertexFaces(vertex).size()));
+    pace.spend(4 + static_cast<Count>(base.GetVertexFaces(vertex).size()));
     if (!takes_a_known_value_for_new(values_around(base, vertex, channel))) continue;
     flags.resize(static_cast<std::size_t>(base.GetNumFaces()), 0);
     const Far::ConstIndexArray faces = base.GetVertexFaces(vertex);

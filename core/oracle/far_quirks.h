@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/mesh/control_mesh.h"
 #include "core/oracle/far_refiner.h"
-#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
@@ -16,6 +16,6 @@ namespace subdivd::oracle {
 // face: set for the faces around such a point, all that its values reach. Empty when there is none.
 // Throws Stopped.
 std::vector<unsigned char> faces_at_torn_values(const OpenSubdiv::Far::TopologyRefiner& refiner, int channel,
-                                                Poller& poller);
+                                                const Pace& pace);
 
 }  // namespace subdivd::oracle

@@ -8,8 +8,8 @@
 
 #include "core/base/buffer.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
-#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
@@ -18,8 +18,8 @@ namespace subdivd::oracle {
 template <class Real>
 class Rows {
  public:
-  Rows(Buffer<Real>& values, Index width, Poller& poller)
-      : data_(values.data()), width_(width), poller_(&poller) {}
+  Rows(Buffer<Real>& values, Index width, const Pace& pace)
+      : data_(values.data()), width_(width), pace_(&pace) {}
 
   class Row {
    public:
@@ -37,22 +37,22 @@ class Rows {
   };
 
   Row operator[](int i) const {
-    poller_->spend(width_);
+    pace_->spend(width_);
     return {data_ + static_cast<std::size_t>(i) * width_, width_};
   }
 
  private:
   Real* data_;
   Index width_;
-  Poller* poller_;
+  const Pace* pace_;
 };
 
 // The values in Real; out_of_range at `where` when one does not fit.
 template <class Real>
-Result<Buffer<Real>> converted(std::span<const double> values, Path where, Poller& poller) {
+Result<Buffer<Real>> converted(std::span<const double> values, Path where, const Pace& pace) {
   Buffer<Real> result(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
-    poller.spend(1);
+    pace.spend(1);
     if (std::abs(values[k]) > static_cast<double>(std::numeric_limits<Real>::max()))
       return Error{ErrorCode::out_of_range, "a number is too large for single precision", std::move(where)};
     result[k] = static_cast<Real>(values[k]);

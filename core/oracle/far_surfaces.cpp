@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "core/base/pace.h"
 #include "core/oracle/far_refiner.h"
 #include "core/oracle/far_rows.h"
-#include "core/oracle/poller.h"
 
 //   v                                  A quad for every cell; a closed direction goes on at its beginning.
 //   ^   (i, j+1) -- 2 -- (i+1, j+1)    An open one ends at a border, whose points follow the cubic curve's
@@ -27,7 +27,7 @@ Index at(const FarSurface& grid, Count i, Count j) {
   return static_cast<Index>(j % grid.v.points * grid.u.points + i % grid.u.points);
 }
 
-Result<FarRefiner> make_refiner(const FarSurface& grid, Poller& poller) {
+Result<FarRefiner> make_refiner(const FarSurface& grid, const Pace& pace) {
   Sdc::Options rules;  // Far's defaults may change: set all that concern points
   rules.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
   rules.SetCreasingMethod(Sdc::Options::CREASE_UNIFORM);
@@ -36,7 +36,7 @@ Result<FarRefiner> make_refiner(const FarSurface& grid, Poller& poller) {
   indices.reserve(grid.u.segments() * grid.v.segments() * 4);
   for (Count j = 0; j < grid.v.segments(); ++j)
     for (Count i = 0; i < grid.u.segments(); ++i) {
-      poller.spend(8);
+      pace.spend(8);
       for (const Index corner :
            {at(grid, i, j), at(grid, i + 1, j), at(grid, i + 1, j + 1), at(grid, i, j + 1)})
         indices.push_back(static_cast<int>(corner));
@@ -54,7 +54,7 @@ Result<FarRefiner> make_refiner(const FarSurface& grid, Poller& poller) {
 // Far's vertices by their points on the finer grid `to`, through parent relations alone. A vertex that no
 // relation leads to, and one to which two lead that disagree, are kNoIndex.
 std::vector<Index> child_places(const Far::TopologyLevel& base, const FarSurface& from, const FarSurface& to,
-                                int children, Poller& poller) {
+                                int children, const Pace& pace) {
   std::vector<Index> places(static_cast<std::size_t>(children), kNoIndex);
   std::vector<unsigned char> torn(places.size(), 0);
   const auto put = [&](int vertex, Count i, Count j) {
@@ -64,7 +64,7 @@ std::vector<Index> child_places(const Far::TopologyLevel& base, const FarSurface
   };
   for (Count j = 0; j < from.v.segments(); ++j)
     for (Count i = 0; i < from.u.segments(); ++i) {
-      poller.spend(32);
+      pace.spend(32);
       const int face = static_cast<int>(j * from.u.segments() + i);
       const Far::ConstIndexArray corners = base.GetFaceVertices(face), edges = base.GetFaceEdges(face);
       constexpr std::array<std::array<Count, 2>, 4> kCorners = {{{0, 0}, {2, 0}, {2, 2}, {0, 2}}};
@@ -77,17 +77,17 @@ std::vector<Index> child_places(const Far::TopologyLevel& base, const FarSurface
       put(base.GetFaceChildVertex(face), 2 * i + 1, 2 * j + 1);
     }
   for (std::size_t v = 0; v < places.size(); ++v) {
-    poller.spend(1);
+    pace.spend(1);
     if (torn[v] != 0) places[v] = kNoIndex;
   }
   return places;
 }
 
 // Every point of the grid has exactly one vertex.
-bool one_to_one(const std::vector<Index>& places, Count points, Poller& poller) {
+bool one_to_one(const std::vector<Index>& places, Count points, const Pace& pace) {
   std::vector<unsigned char> taken(points, 0);
   for (const Index place : places) {
-    poller.spend(1);
+    pace.spend(1);
     if (place >= points || taken[place] != 0) return false;
     taken[place] = 1;
   }
@@ -95,14 +95,14 @@ bool one_to_one(const std::vector<Index>& places, Count points, Poller& poller) 
 }
 
 Result<std::vector<Index>> places_of(const Far::TopologyRefiner& refiner, const FarSurface& from,
-                                     const FarSurface& to, Poller& poller) {
+                                     const FarSurface& to, const Pace& pace) {
   const int vertices = refiner.GetLevel(refiner.GetMaxLevel()).GetNumVertices();
   std::vector<Index> places;
   if (refiner.GetMaxLevel() == 0)
     for (Index v = 0; v < static_cast<Index>(vertices); ++v) places.push_back(v);
   else
-    places = child_places(refiner.GetLevel(0), from, to, vertices, poller);
-  if (!one_to_one(places, to.u.points * to.v.points, poller))
+    places = child_places(refiner.GetLevel(0), from, to, vertices, pace);
+  if (!one_to_one(places, to.u.points * to.v.points, pace))
     return Error{ErrorCode::internal, "OpenSubdiv's refined grid is no grid of the expected size"};
   return places;
 }
@@ -110,20 +110,20 @@ Result<std::vector<Index>> places_of(const Far::TopologyRefiner& refiner, const 
 // Far's values, `width` per vertex, in the order of the grid.
 template <class Real>
 Buffer<double> placed(const Buffer<Real>& values, const std::vector<Index>& places, Index width,
-                      Poller& poller) {
+                      const Pace& pace) {
   Buffer<double> result(values.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
-    poller.spend(1 + width);
+    pace.spend(1 + width);
     std::copy_n(&values[v * width], width, &result[std::size_t{places[v]} * width]);
   }
   return result;
 }
 
-Buffer<Index> quads_of(const Far::TopologyLevel& level, const std::vector<Index>& places, Poller& poller) {
+Buffer<Index> quads_of(const Far::TopologyLevel& level, const std::vector<Index>& places, const Pace& pace) {
   Buffer<Index> quads;
   quads.reserve(static_cast<std::size_t>(level.GetNumFaceVertices()));
   for (int face = 0; face < level.GetNumFaces(); ++face) {
-    poller.spend(8);
+    pace.spend(8);
     const Far::ConstIndexArray vertices = level.GetFaceVertices(face);
     for (int k = 0; k < vertices.size(); ++k) quads.push_back(places[static_cast<std::size_t>(vertices[k])]);
   }
@@ -133,9 +133,9 @@ Buffer<Index> quads_of(const Far::TopologyLevel& level, const std::vector<Index>
 // Far's tangents inside the surface are (4 (e_0 - e_2) + f_0 - f_1 - f_2 + f_3) and the same turned, 12 times
 // the derivative by the level's parameters; on borders and at corners they are derivatives.
 template <class Real>
-void scale_tangents(const Far::TopologyLevel& level, Buffer<Real>& tangents, Poller& poller) {
+void scale_tangents(const Far::TopologyLevel& level, Buffer<Real>& tangents, const Pace& pace) {
   for (std::size_t v = 0; v < tangents.size() / 3; ++v) {
-    poller.spend(4);
+    pace.spend(4);
     if (!level.IsVertexBoundary(static_cast<int>(v)))
       for (std::size_t k = 0; k < 3; ++k) tangents[3 * v + k] /= 12;
   }
@@ -143,22 +143,22 @@ void scale_tangents(const Far::TopologyLevel& level, Buffer<Real>& tangents, Pol
 
 template <class Real>
 void take_limits(const Far::TopologyRefiner& refiner, Buffer<Real>& points, const FarSurfaceOptions& options,
-                 const std::vector<Index>& places, FarSurface& to, Poller& poller) {
+                 const std::vector<Index>& places, FarSurface& to, const Pace& pace) {
   const Far::PrimvarRefinerReal<Real> primvars(refiner);
   Buffer<Real> limits(points.size());
-  Rows<Real> limit(limits, to.width, poller);
+  Rows<Real> limit(limits, to.width, pace);
   if (!options.normals) {
-    primvars.Limit(Rows<Real>(points, to.width, poller), limit);
+    primvars.Limit(Rows<Real>(points, to.width, pace), limit);
   } else {
     Buffer<Real> u_tangents(points.size()), v_tangents(points.size());
-    Rows<Real> u(u_tangents, to.width, poller), v(v_tangents, to.width, poller);
-    primvars.Limit(Rows<Real>(points, to.width, poller), limit, u, v);
+    Rows<Real> u(u_tangents, to.width, pace), v(v_tangents, to.width, pace);
+    primvars.Limit(Rows<Real>(points, to.width, pace), limit, u, v);
     for (Buffer<Real>* tangents : {&u_tangents, &v_tangents})
-      scale_tangents(refiner.GetLevel(refiner.GetMaxLevel()), *tangents, poller);
-    to.u_tangents = placed(u_tangents, places, to.width, poller);
-    to.v_tangents = placed(v_tangents, places, to.width, poller);
+      scale_tangents(refiner.GetLevel(refiner.GetMaxLevel()), *tangents, pace);
+    to.u_tangents = placed(u_tangents, places, to.width, pace);
+    to.v_tangents = placed(v_tangents, places, to.width, pace);
   }
-  to.limits = placed(limits, places, to.width, poller);
+  to.limits = placed(limits, places, to.width, pace);
 }
 
 // Without points. A border is where it ends in every direction that does not close.
@@ -202,10 +202,10 @@ namespace {
 
 template <class Real>
 Result<FarSurface> refine_grid(const FarSurface& from, const FarSurfaceOptions& options, const Budget& budget,
-                               Poller& poller) {
-  auto points = converted<Real>(from.points, {"points"}, poller);
+                               const Pace& pace) {
+  auto points = converted<Real>(from.points, {"points"}, pace);
   if (!points) return points.error();
-  Result<FarRefiner> made = make_refiner(from, poller);
+  Result<FarRefiner> made = make_refiner(from, pace);
   if (!made) return made.error();
   Far::TopologyRefiner& refiner = **made;
   if (auto stop = budget.poll()) return *stop;
@@ -219,16 +219,16 @@ Result<FarSurface> refine_grid(const FarSurface& from, const FarSurfaceOptions& 
     if (auto stop = budget.poll()) return *stop;
     to.u.points = from.u.refined_points(), to.v.points = from.v.refined_points();
     Buffer<Real> next(to.u.points * to.v.points * to.width);
-    Rows<Real> target(next, to.width, poller);
-    Far::PrimvarRefinerReal<Real>(refiner).Interpolate(1, Rows<Real>(*points, to.width, poller), target);
+    Rows<Real> target(next, to.width, pace);
+    Far::PrimvarRefinerReal<Real>(refiner).Interpolate(1, Rows<Real>(*points, to.width, pace), target);
     *points = std::move(next);
   }
-  const Result<std::vector<Index>> places = places_of(refiner, from, to, poller);
+  const Result<std::vector<Index>> places = places_of(refiner, from, to, pace);
   if (!places) return places.error();
-  to.points = placed(*points, *places, to.width, poller);
-  to.quads = quads_of(refiner.GetLevel(refiner.GetMaxLevel()), *places, poller);
+  to.points = placed(*points, *places, to.width, pace);
+  to.quads = quads_of(refiner.GetLevel(refiner.GetMaxLevel()), *places, pace);
   if (auto stop = budget.poll()) return *stop;
-  if (options.limit || options.normals) take_limits(refiner, *points, options, *places, to, poller);
+  if (options.limit || options.normals) take_limits(refiner, *points, options, *places, to, pace);
   if (far_has_complained()) return far_refusal();
   return to;
 }
@@ -238,10 +238,7 @@ Result<FarSurface> refine_grid(const FarSurface& from, const FarSurfaceOptions& 
 template <class Real>
 Result<FarSurface> far_refine_surface(const FarSurface& from, const FarSurfaceOptions& options,
                                       const Budget& budget) {
-  return stoppable([&] {
-    Poller poller(budget);
-    return refine_grid<Real>(from, options, budget, poller);
-  });
+  return stoppable(budget, [&](const Pace& pace) { return refine_grid<Real>(from, options, budget, pace); });
 }
 
 template Result<FarSurface> far_refine_surface<float>(const FarSurface&, const FarSurfaceOptions&,

@@ -32,12 +32,12 @@ double face_varying_limit_tolerance<float>() {
   return 2e-6;
 }
 
-PointScale point_scale(std::span<const double> points, Index width, Poller& poller) {
+PointScale point_scale(std::span<const double> points, Index width, const Pace& pace) {
   if (width == 0 || points.size() < width) return {};
   std::vector<double> low(points.begin(), points.begin() + width), high = low;
   double largest = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    poller.spend(1);
+    pace.spend(1);
     low[k % width] = std::min(low[k % width], points[k]);
     high[k % width] = std::max(high[k % width], points[k]);
     largest = std::max(largest, std::abs(points[k]));
@@ -53,7 +53,7 @@ PointScale point_scale(std::span<const double> points, Index width, Poller& poll
   return {std::min(diagonal * largest, std::numeric_limits<double>::max()), std::max(1.0, 1 / diagonal)};
 }
 
-bool sharpness_rounds(const ControlMesh& mesh, Poller& poller) {
+bool sharpness_rounds(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.crease_lengths.empty()) return false;
   const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
   std::vector<Index> edges(mesh.point_count(),
@@ -61,7 +61,7 @@ bool sharpness_rounds(const ControlMesh& mesh, Poller& poller) {
   Count point = 0, edge = 0;
   for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
     for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
-      poller.spend(1);
+      pace.spend(1);
       const float sharpness = mesh.crease_sharpnesses[per_crease ? crease : edge];
       if (!(sharpness > 0) || sharpness >= kInfiniteSharpness) continue;
       ++edges[mesh.crease_indices[point]];

@@ -1,11 +1,11 @@
 #pragma once
-// What deviations are measured by, and how large they may be. What takes a Poller throws Stopped.
+// What deviations are measured by, and how large they may be. What takes a Pace throws Stopped.
 
 #include <span>
 
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/mesh/control_mesh.h"
-#include "core/oracle/poller.h"
 
 namespace subdivd::oracle {
 
@@ -17,11 +17,11 @@ struct PointScale {
   double remoteness = 1;
 };
 // `points`: width scalars each.
-PointScale point_scale(std::span<const double> points, Index width, Poller& poller);
+PointScale point_scale(std::span<const double> points, Index width, const Pace& pace);
 
 // Sharpness is single precision in Far and here, and three or more semi-sharp edges at one point are added up
 // in an order that is each side's own: the blended weights may differ in their eighth digit.
-bool sharpness_rounds(const ControlMesh& mesh, Poller& poller);
+bool sharpness_rounds(const ControlMesh& mesh, const Pace& pace);
 inline constexpr double kSharpnessRounding = 1e-7;  // tolerance of values, relative, where it does
 
 // Tolerances of max_relative in the precision of Real.

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "core/base/pace.h"
 #include "core/oracle/compare.h"
-#include "core/oracle/poller.h"
 #include "core/oracle/remarks.h"
 
 namespace subdivd::oracle {
 namespace {
 
-void remark_sharpness(const ControlMesh& mesh, MeshReport& report, Poller& poller) {
-  if (sharpness_rounds(mesh, poller))
+void remark_sharpness(const ControlMesh& mesh, MeshReport& report, const Pace& pace) {
+  if (sharpness_rounds(mesh, pace))
     report.remarks.push_back(
         "three or more semi-sharp edges meet: sharpness is single precision and its sums "
         "round by their order, so the tolerance of values is at least 1e-7");
@@ -20,7 +20,7 @@ void remark_sharpness(const ControlMesh& mesh, MeshReport& report, Poller& polle
 
 template <class Real>
 Result<MeshReport> compare_levels(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
-                                  const Budget& budget, Poller& poller) {
+                                  const Budget& budget, const Pace& pace) {
   auto far_mesh = FarMesh::build(mesh, options.crease_method, options.level, budget);
   if (!far_mesh) return far_mesh.error();
   MeshReport report;
@@ -35,11 +35,11 @@ Result<MeshReport> compare_levels(const ControlMesh& mesh, const Plan& plan, con
     if (!far) return far.error();
     const auto ours = refine<Real>(mesh, plan, step, budget);
     if (!ours) return ours.error();
-    report.levels.push_back(compare(mesh, *ours, *far, poller));
+    report.levels.push_back(compare(mesh, *ours, *far, pace));
   }
   remark_exceptions(report.levels, report.remarks);
-  remark_sharpness(mesh, report, poller);
-  remark_remoteness("mesh", point_scale(mesh.points, 3, poller).remoteness, report.remarks);
+  remark_sharpness(mesh, report, pace);
+  remark_remoteness("mesh", point_scale(mesh.points, 3, pace).remoteness, report.remarks);
   report.verdict = verdict_of(report.levels);
   return report;
 }
@@ -58,10 +58,8 @@ Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const Refin
   if (options.loop_weights != LoopWeights::loop)
     return Error{ErrorCode::unsupported,
                  "OpenSubdiv knows Loop's own weights only; verification needs loopWeights \"loop\""};
-  return stoppable([&] {
-    Poller poller(budget);
-    return compare_levels<Real>(mesh, plan, options, budget, poller);
-  });
+  return stoppable(budget,
+                   [&](const Pace& pace) { return compare_levels<Real>(mesh, plan, options, budget, pace); });
 }
 
 template <class Real>

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "core/base/pace.h"
 #include "core/oracle/compare.h"
 #include "core/oracle/far_curves.h"
-#include "core/oracle/poller.h"
 #include "core/oracle/remarks.h"
 #include "core/oracle/verify.h"
 
@@ -23,12 +23,12 @@ std::string remark(CurveWrap wrap) {
 
 template <class Real>
 Result<CurveReport> compare_levels(const ControlCurves& curves, const CurveOptions& options,
-                                   const Budget& budget, Poller& poller) {
+                                   const Budget& budget, const Pace& pace) {
   CurveReport report;
   report.name = curves.name;
   report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
   report.remarks.push_back(remark(curves.wrap));
-  const PointScale scale = point_scale(curves.points, curves.width, poller);
+  const PointScale scale = point_scale(curves.points, curves.width, pace);
 
   FarCurves far = far_control(curves);
   for (Index level = std::min<Index>(1, options.level); level <= options.level; ++level) {
@@ -40,7 +40,7 @@ Result<CurveReport> compare_levels(const ControlCurves& curves, const CurveOptio
     auto next = far_refine_curves<Real>(far, std::min<Index>(1, level), options.limit, budget);
     if (!next) return next.error();
     far = std::move(*next);
-    report.levels.push_back(compare(*ours, far, scale, poller));
+    report.levels.push_back(compare(*ours, far, scale, pace));
   }
   remark_exceptions(report.levels, report.remarks);
   remark_remoteness("curve", scale.remoteness, report.remarks);
@@ -59,10 +59,8 @@ Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& opti
         {"basis"}};
   if (const auto sizes = predict_bytes<Real>(curves, options); !sizes) return sizes.error();
   if (auto fits = check_far_curves(curves, options.level, budget); !fits) return fits.error();
-  return stoppable([&] {
-    Poller poller(budget);
-    return compare_levels<Real>(curves, options, budget, poller);
-  });
+  return stoppable(budget,
+                   [&](const Pace& pace) { return compare_levels<Real>(curves, options, budget, pace); });
 }
 
 template Result<CurveReport> verify<float>(const ControlCurves&, const CurveOptions&, const Budget&);

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "core/base/pace.h"
 #include "core/oracle/compare.h"
 #include "core/oracle/far_cost.h"
 #include "core/oracle/far_surfaces.h"
-#include "core/oracle/poller.h"
 #include "core/oracle/remarks.h"
 #include "core/oracle/verify.h"
 
@@ -52,7 +52,7 @@ Result<void> check_surface(const ControlPatch& patch, const PatchOptions& option
 
 template <class Real>
 Result<SurfaceReport> compare_levels(const ControlPatch& patch, const PatchOptions& options,
-                                     const Budget& budget, Poller& poller) {
+                                     const Budget& budget, const Pace& pace) {
   SurfaceReport report;
   report.name = patch.name;
   report.precision = sizeof(Real) == sizeof(float) ? "single" : "double";
@@ -66,10 +66,10 @@ Result<SurfaceReport> compare_levels(const ControlPatch& patch, const PatchOptio
     auto next = far_refine_surface<Real>(far, step, budget);
     if (!next) return next.error();
     far = std::move(*next);
-    report.levels.push_back(compare(patch, *ours, far, poller));
+    report.levels.push_back(compare(patch, *ours, far, pace));
   }
   remark_exceptions(report.levels, report.remarks);
-  remark_remoteness("surface", point_scale(patch.points, patch.width, poller).remoteness, report.remarks);
+  remark_remoteness("surface", point_scale(patch.points, patch.width, pace).remoteness, report.remarks);
   report.verdict = verdict_of(report.levels);
   return report;
 }
@@ -79,10 +79,8 @@ Result<SurfaceReport> compare_levels(const ControlPatch& patch, const PatchOptio
 template <class Real>
 Result<SurfaceReport> verify(const ControlPatch& patch, const PatchOptions& options, const Budget& budget) {
   if (auto fits = check_surface<Real>(patch, options, budget); !fits) return fits.error();
-  return stoppable([&] {
-    Poller poller(budget);
-    return compare_levels<Real>(patch, options, budget, poller);
-  });
+  return stoppable(budget,
+                   [&](const Pace& pace) { return compare_levels<Real>(patch, options, budget, pace); });
 }
 
 template Result<SurfaceReport> verify<float>(const ControlPatch&, const PatchOptions&, const Budget&);

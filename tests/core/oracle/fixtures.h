@@ -16,10 +16,10 @@ namespace subdivd::oracle::testing {
 inline constexpr Index kLevel = 2;
 
 // Never stops anybody.
-inline Poller& patient() {
+inline const Pace& patient() {
   static const Budget unlimited;
-  static Poller poller(unlimited);
-  return poller;
+  static const Pace pace(unlimited);
+  return pace;
 }
 
 inline RefineOptions everything(Index level) {
