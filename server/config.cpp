@@ -99,6 +99,8 @@ constexpr std::array kSettings = {
           "Open connections, idle ones included; 0 means 10000, or as many as descriptors allow", set_number<&Config::max_connections, 0, 1000000>},
   Setting{"max-concurrent", "0", "0 to 1024",
           "Requests computed at once; 0 means one per processor", set_number<&Config::max_concurrent, 0, 1024>},
+  Setting{"request-threads", "0", "0 to 1024",
+          "Threads that compute one request, as long as no other needs their processors; 0 means one per processor", set_number<&Config::request_threads, 0, 1024>},
   Setting{"max-waiting", "32", "0 to 100000",
           "Requests that may wait to be computed, small and large ones counted apart; more are turned away with 503", set_number<&Config::max_waiting, 0, 100000>},
   Setting{"max-body-bytes", "256MiB", "1 to 1024GiB",

@@ -19,6 +19,7 @@ struct Config {
   std::size_t threads = 0;
   std::size_t max_connections = 0;  // 0: as many as descriptors allow
   std::size_t max_concurrent = 0;   // 0: one per processor
+  std::size_t request_threads = 0;  // 0: one per processor
   std::size_t max_waiting = 0;
   std::uint64_t max_body_bytes = 0;
   std::uint64_t max_output_bytes = 0;

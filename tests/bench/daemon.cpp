@@ -34,13 +34,16 @@ std::size_t number_after(std::string_view head, std::string_view field) {
 
 }  // namespace
 
-Daemon::Daemon() {
+Daemon::Daemon(const std::vector<std::string>& flags) {
+  std::vector<const char*> words = {"subdivd", "--port", "0", "--log-level", "error"};
+  for (const std::string& flag : flags) words.push_back(flag.c_str());
+  words.push_back(nullptr);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) return;
   pid_ = ::fork();
   if (pid_ == 0) {
     ::dup2(ends[1], STDOUT_FILENO);
-    ::execl(SUBDIVD_BINARY_DIR "/subdivd", "subdivd", "--port", "0", "--log-level", "error", nullptr);
+    ::execv(SUBDIVD_BINARY_DIR "/subdivd", const_cast<char* const*>(words.data()));
     ::_exit(127);
   }
   ::close(ends[1]);

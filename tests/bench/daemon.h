@@ -11,7 +11,8 @@ namespace subdivd::bench {
 
 class Daemon {
  public:
-  Daemon();  // port() is 0 when it does not start
+  // `flags`: beside those that choose its port and keep its log quiet. port() is 0 when it does not start.
+  explicit Daemon(const std::vector<std::string>& flags = {});
   ~Daemon();
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;

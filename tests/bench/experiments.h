@@ -3,6 +3,7 @@
 
 #include "tests/bench/case.h"
 #include "tests/bench/contest.h"
+#include "tests/bench/requests.h"
 
 namespace subdivd::bench {
 
@@ -22,5 +23,9 @@ double time_plan(const Case& cell, const Pace& pace, Results& results);
 double count_memory(const Case& cell, Results& results);
 // GLB in, GLB out, through the daemon; against the core's total for the same mesh and all bytes at 1 GB/s.
 double time_http(const Case& cell, const Pace& pace, Results& results);
+
+// Whole requests to a warm daemon, on one thread and on as many as it takes, and the same without HTTP;
+// against our warm engine on the same mesh plus a copy of every byte of body and answer.
+double time_request(const Asset& asset, Index level, const Pace& pace, Results& results);
 
 }  // namespace subdivd::bench

@@ -104,6 +104,13 @@ int run(int argc, char** argv) {
     const Case highest{&workload, workload.levels.back()};
     add("plan/" + workload.name, [=, &results] { return time_plan(highest, pace, results); });
   }
+  std::deque<Asset> assets;
+  for (Asset& made : request_assets()) {
+    const Asset& asset = assets.emplace_back(std::move(made));
+    for (const Index level : {1, 2, 3})
+      add("requests/" + asset.name + ".L" + std::to_string(level),
+          [=, &asset, &results] { return time_request(asset, level, pace, results); });
+  }
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   results.print(std::cout);

@@ -28,6 +28,9 @@ constexpr std::array kQuantities = {
     Quantity{"memory", "memory beyond the output", "% of it"},
     Quantity{"plan_alone", "plan / create", "ms"},
     Quantity{"http", "GLB over HTTP (base: core)", "ms"},
+    Quantity{"request", "request, 1 thread (base: warm)", "ms"},
+    Quantity{"request_threads", "request, all threads (warm)", "ms"},
+    Quantity{"in_process", "request without HTTP (warm)", "ms"},
 };
 
 // A ratio: rival's figure over ours ("x", bigger is better) or ours over the rival's ("/", smaller is
@@ -45,6 +48,9 @@ constexpr std::array kRatios = {
     Ratio{"limit_vs_far", "limits", "Far", false},
     Ratio{"threads2_vs_1", "threads", "base", false},
     Ratio{"http_vs_core", "http", "base", true},
+    Ratio{"request_vs_warm", "request", "base", true},
+    Ratio{"request_threads_vs_warm", "request_threads", "base", true},
+    Ratio{"in_process_vs_warm", "in_process", "base", true},
 };
 
 constexpr std::array<std::string_view, 7> kContestants = {"ours",   "Far",    "CGAL", "OpenMesh",
@@ -57,7 +63,8 @@ bool is_compared(std::string_view quantity) {
 }
 
 bool is_ours_first(std::string_view quantity, std::string_view rival) {
-  return rival == "memset" || quantity == "http" || quantity == "memory";
+  return rival == "memset" || quantity == "http" || quantity == "memory" || quantity.starts_with("request") ||
+         quantity == "in_process";
 }
 
 double median_of(std::vector<double> values) {
@@ -88,7 +95,7 @@ void print_heading(std::ostream& out) {
          "In JSON: *_vs_far, *_vs_stencils, *_vs_far_create, threads2_vs_1 are xN; total_vs_memset, "
          "http_vs_core are /N;\n"
          "memory_vs_output is a share (0.15 = 15 %).\n\n";
-  out << padded("workload", 15, false) << padded("quantity", 28, false) << padded("unit", 10, false);
+  out << padded("workload", 17, false) << padded("quantity", 32, false) << padded("unit", 10, false);
   for (const std::string_view who : kContestants) out << padded(who, 10, true);
   out << "  ";
   for (const std::string_view rival : kRivals)
@@ -132,7 +139,7 @@ void Results::print(std::ostream& out) const {
       const std::string key(quantity.key);
       if (!cell.quantities.contains(key)) continue;
       const auto ours = median(cell.name, key, "ours");
-      out << padded(cell.name, 15, false) << padded(quantity.label, 28, false)
+      out << padded(cell.name, 17, false) << padded(quantity.label, 32, false)
           << padded(quantity.unit, 10, false);
       for (const std::string_view who : kContestants) {
         const auto value = median(cell.name, key, std::string(who));

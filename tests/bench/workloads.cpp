@@ -110,6 +110,16 @@ void make_lumpy(ControlMesh& mesh, Random& random) {
   }
 }
 
+// 8 m^2 triangles, two thirds of the points irregular.
+ControlMesh lumpy_sphere(Index m, std::uint64_t seed) {
+  Random random(seed);
+  ControlMesh mesh = sphere(m);
+  flip_edges(mesh.face_vertex_indices, static_cast<Index>(mesh.point_count()), 2.0 / 3, random);
+  for (int k = 0; k < 3; ++k) relax(mesh);
+  make_lumpy(mesh, random);
+  return mesh;
+}
+
 constexpr Index kColumns = 60, kRows = 51;
 
 double jar_radius(double height) { return 0.6 + 0.25 * std::sin(4 * height) + 0.05 * std::cos(13 * height); }
@@ -136,14 +146,9 @@ std::vector<Index> seam(Index column, Index first_row, Index last_row) {
 
 Workload icosahedron() { return workload("icosahedron", {6, 8}, shapes::icosahedron()); }
 
-Workload blob100k() {
-  Random random(3);
-  ControlMesh mesh = sphere(112);
-  flip_edges(mesh.face_vertex_indices, static_cast<Index>(mesh.point_count()), 2.0 / 3, random);
-  for (int k = 0; k < 3; ++k) relax(mesh);
-  make_lumpy(mesh, random);
-  return workload("blob100k", {1, 2, 3}, std::move(mesh));
-}
+Workload blob100k() { return workload("blob100k", {1, 2, 3}, lumpy_sphere(112, 3)); }
+
+Workload scan120k() { return workload("scan120k", {1, 2, 3}, lumpy_sphere(122, 6)); }
 
 Workload torus1m() {
   constexpr Index kAround = 1000, kAlong = 500;

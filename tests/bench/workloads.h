@@ -23,14 +23,14 @@ struct Workload {
 // blob100k     closed, lumpy, 100,352 triangles, every edge that may be flipped as likely as any other until
 //              two thirds of the points are irregular (valences 4 to 9); levels 1 to 3.
 // torus1m      1000 x 500 quads with jittered points, each cut along one of its diagonals at random:
-// 1,000,000
-//              triangles; levels 1 and 2.
+//              1,000,000 triangles; levels 1 and 2.
 // model6k      a jar, open above and below, with two slots in its side: 6,060 triangles, four borders;
-// infinite
-//              creases around rim and foot, semi-sharp ones around the shoulders and down two seams; levels 3
-//              to 5.
+//              infinite creases around rim and foot, semi-sharp ones around the shoulders and down two seams;
+//              levels 3 to 5.
+// scan120k     like blob100k, of 119,072 triangles; levels 1 to 3.
 Workload icosahedron();
 Workload blob100k();
+Workload scan120k();
 Workload torus1m();
 Workload model6k();
 
