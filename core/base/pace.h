@@ -56,6 +56,16 @@ class Pace {
       f(begin, end);
     }
   }
+  // Whether f(begin, end) is true for all such blocks; stops at the first for which it is not.
+  template <class F>
+  bool all_blocks(Count total, F&& f) const {
+    for (Count begin = 0; begin < total; begin += kBlock) {
+      const Count end = std::min(begin + kBlock, total);
+      spend(end - begin);
+      if (!f(begin, end)) return false;
+    }
+    return true;
+  }
   // Calls f(k) for k = 0..total-1.
   template <class I, class F>
   void for_each(I total, F&& f) const {
@@ -79,6 +89,15 @@ class Pace {
       to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
                 from.begin() + static_cast<std::ptrdiff_t>(end));
     });
+  }
+  // Whether two arrays hold the same.
+  template <class A, class B>
+  bool equal(const A& a, const B& b) const {
+    return a.size() == b.size() && all_blocks(a.size(), [&](Count begin, Count end) {
+             return std::equal(a.begin() + static_cast<std::ptrdiff_t>(begin),
+                               a.begin() + static_cast<std::ptrdiff_t>(end),
+                               b.begin() + static_cast<std::ptrdiff_t>(begin));
+           });
   }
   // As to.insert(to.end(), ...), and as from.push_back() many times: an array that grows is moved as a whole.
   template <class From, class Array>

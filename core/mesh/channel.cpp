@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "core/mesh/positions.h"
 
@@ -53,6 +54,7 @@ class Rules {
         base_(base),
         base_sharpness_(base_sharpness),
         channel_(channel),
+        topology_(*channel.topology),
         mode_(mesh.face_varying_linear_interpolation),
         pace_(pace) {}
 
@@ -63,7 +65,7 @@ class Rules {
       values.clear();
       for (Index h : base_.vertex_corners(v)) {
         pace_.spend(8);
-        values.push_back(channel_.topology.corner_vertex(h));
+        values.push_back(topology_.corner_vertex(h));
       }
       if (values.size() < 64)
         std::ranges::sort(values);
@@ -76,18 +78,16 @@ class Rules {
 
  private:
   bool is_seam(Index h) const {  // base edge of h is a border of the channel but not of the mesh
-    return channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)) &&
-           !base_.is_boundary(base_.half_edge_edge(h));
+    return topology_.is_boundary(topology_.half_edge_edge(h)) && !base_.is_boundary(base_.half_edge_edge(h));
   }
 
   void inherit_edges() {
-    const Topology& topology = channel_.topology;
-    pace_.fill(channel_.sharpness.edges, topology.edge_count(), 0.0f);
-    pace_.for_each(static_cast<Index>(topology.triangles().size()), [&](Index h) {
-      channel_.sharpness.edges[topology.half_edge_edge(h)] = base_sharpness_.edges[base_.half_edge_edge(h)];
+    pace_.fill(channel_.sharpness.edges, topology_.edge_count(), 0.0f);
+    pace_.for_each(static_cast<Index>(topology_.triangles().size()), [&](Index h) {
+      channel_.sharpness.edges[topology_.half_edge_edge(h)] = base_sharpness_.edges[base_.half_edge_edge(h)];
     });
-    pace_.for_each(topology.edge_count(), [&](Index e) {
-      if (topology.is_boundary(e) || topology.is_non_manifold_edge(e))
+    pace_.for_each(topology_.edge_count(), [&](Index e) {
+      if (topology_.is_boundary(e) || topology_.is_non_manifold_edge(e))
         channel_.sharpness.edges[e] = kInfiniteSharpness;
     });
   }
@@ -110,13 +110,12 @@ class Rules {
   }
 
   Span span_of(Index c) const {
-    const Topology& topology = channel_.topology;
     Span span;
-    span.faces = static_cast<Index>(topology.vertex_corners(c).size());
-    span.disjoint = topology.is_non_manifold_vertex(c);
-    for (Index e : topology.vertex_edges(c)) {
+    span.faces = static_cast<Index>(topology_.vertex_corners(c).size());
+    span.disjoint = topology_.is_non_manifold_vertex(c);
+    for (Index e : topology_.vertex_edges(c)) {
       pace_.spend(2);
-      if (topology.is_boundary(e)) continue;
+      if (topology_.is_boundary(e)) continue;
       span.disjoint |= is_infinite(channel_.sharpness.edges[e]);
       span.semi_sharp += is_semi_sharp(channel_.sharpness.edges[e]);
     }
@@ -170,9 +169,9 @@ class Rules {
     }
     const Positions in_around(around, pace_);
     std::vector<std::size_t> inside;  // of the fan, as positions around v
-    for (Index h : channel_.topology.vertex_corners(c)) {
+    for (Index h : topology_.vertex_corners(c)) {
       pace_.spend(16);
-      if (!channel_.topology.is_boundary(channel_.topology.half_edge_edge(h)))
+      if (!topology_.is_boundary(topology_.half_edge_edge(h)))
         inside.push_back(in_around(base_.half_edge_edge(h)));
     }
     float vertex = base_sharpness_.vertices[v];
@@ -201,6 +200,7 @@ class Rules {
   const Topology& base_;
   const Sharpness& base_sharpness_;
   Channel& channel_;
+  const Topology& topology_;  // the channel's
   FaceVaryingInterpolation mode_;
   const Pace& pace_;
 };
@@ -215,18 +215,34 @@ std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pac
   return vertices;
 }
 
-Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
-                     const Sharpness& base_sharpness, std::span<const Index> vertices,
-                     std::span<const Index> corner_values, Index value_count, const Pace& pace) {
+Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
+                     std::shared_ptr<const Topology> base, const Sharpness& base_sharpness,
+                     std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
+                     const Pace& pace) {
   Channel channel;
   std::vector<Index> corners;
-  number_vertices(base, vertices, corner_values, value_count, corners, channel.values, pace);
-  channel.topology = Topology(static_cast<Index>(channel.values.size()), std::move(corners), pace);
+  number_vertices(*base, vertices, corner_values, value_count, corners, channel.values, pace);
+  const Topology& points = *base;
+  if (channel.values.size() == base->vertex_count() && pace.equal(corners, base->triangles()))
+    channel.topology = std::move(base);
+  else
+    channel.topology =
+        std::make_shared<const Topology>(static_cast<Index>(channel.values.size()), std::move(corners), pace);
   channel.linear = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
   channel.linear_borders = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
-  pace.fill(channel.sharpness.vertices, channel.topology.vertex_count(), 0.0f);
-  Rules(mesh, crease_method, base, base_sharpness, channel, pace).apply(vertices);
+  pace.fill(channel.sharpness.vertices, channel.topology->vertex_count(), 0.0f);
+  Rules(mesh, crease_method, points, base_sharpness, channel, pace).apply(vertices);
   return channel;
+}
+
+bool is_as_mesh(const ControlMesh& mesh, const Topology& base, std::span<const Index> corner_values,
+                Index value_count, const Pace& pace) {
+  return mesh.face_varying_linear_interpolation != FaceVaryingInterpolation::all &&
+         value_count == base.vertex_count() && pace.equal(corner_values, base.triangles()) &&
+         pace.all_blocks(base.edge_count(), [&](Count begin, Count end) {
+           const auto kinds = base.edge_kinds().subspan(begin, end - begin);
+           return std::ranges::find(kinds, EdgeKind::border) == kinds.end();
+         });
 }
 
 }  // namespace subdivd

@@ -3,6 +3,7 @@
 // border. The engine that refines positions then refines the channel; what differs between the six
 // modes of faceVaryingLinearInterpolation is decided here, once, at the control mesh.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace subdivd {
 
 struct Channel {
-  Topology topology;  // vertices are (point, value) pairs
+  // Vertices are (point, value) pairs. The mesh's own where every point has one value, under its own number.
+  std::shared_ptr<const Topology> topology;
   Sharpness sharpness;
   // Channel vertex -> index of its value. Values are vertices under their own number; a value that several
   // points share gets one more vertex, numbered after them, for each further point.
@@ -29,10 +31,16 @@ struct Channel {
 std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pace = {});
 
 // `corner_values`: one value index per face corner, each < value_count. `base` and `base_sharpness` are the
-// control mesh's own (control_sharpness), `vertices` is vertices_with_faces(base); the crease method tells
+// control mesh's own (control_sharpness), `vertices` is vertices_with_faces(*base); the crease method tells
 // how long a semi-sharp crease holds. Linear in the faces and values, but values are sorted at each vertex.
-Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
-                     const Sharpness& base_sharpness, std::span<const Index> vertices,
-                     std::span<const Index> corner_values, Index value_count, const Pace& pace = {});
+Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
+                     std::shared_ptr<const Topology> base, const Sharpness& base_sharpness,
+                     std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
+                     const Pace& pace = {});
+
+// Whether every point has one value under its own number, and nothing that the channel's mode decides: no
+// border, no linear interpolation. Such a channel is refined as a vertex primvar is, with the mesh's rules.
+bool is_as_mesh(const ControlMesh& mesh, const Topology& base, std::span<const Index> corner_values,
+                Index value_count, const Pace& pace = {});
 
 }  // namespace subdivd

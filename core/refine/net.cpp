@@ -23,8 +23,8 @@ float SemiSharp::vertex(Index v) const {
   return at == vertices.size() ? 0.0f : vertex_sharpness[at];
 }
 
-Net Net::build(const AnyScheme& scheme, CreaseMethod method, Topology topology, Sharpness sharpness,
-               Index max_level, const Pace& pace) {
+Net Net::build(const AnyScheme& scheme, CreaseMethod method, std::shared_ptr<const Topology> topology,
+               Sharpness sharpness, Index max_level, const Pace& pace) {
   Net net;
   net.scheme_ = scheme;
   net.method_ = method;
@@ -64,9 +64,9 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
   base.edges = std::move(net.semi_sharp_edges_);
   for (const Index e : base.edges) {
     pace.spend(16);
-    const Index h = net.topology_.edge_half_edges(e)[0];
-    pairs.push_back({position(mesh.semi_sharp(0).edges, mesh.topology_.half_edge_edge(h)),
-                     side(net.topology_, h) != side(mesh.topology_, h)});
+    const Index h = net.topology_->edge_half_edges(e)[0];
+    pairs.push_back({position(mesh.semi_sharp(0).edges, mesh.topology_->half_edge_edge(h)),
+                     side(*net.topology_, h) != side(*mesh.topology_, h)});
   }
   net.list_semi_sharp_vertices(base, pace);
   for (Index level = 0; level <= net.max_level_ + 1; ++level) {
@@ -96,13 +96,13 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
 }
 
 Count Net::resident_bytes() const {
-  const Count faces = topology_.face_count(), edges = topology_.edge_count(),
-              vertices = topology_.vertex_count();
+  const Count faces = topology_->face_count(), edges = topology_->edge_count(),
+              vertices = topology_->vertex_count();
   return 2048 + 40 * faces + 32 * edges + 24 * vertices;
 }
 
 Count Net::building_bytes() const {
-  return topology_building_bytes(topology_.vertex_count(), topology_.face_count());
+  return topology_building_bytes(topology_->vertex_count(), topology_->face_count());
 }
 
 const SemiSharp& Net::semi_sharp(Index level) const {
@@ -123,16 +123,16 @@ float Net::segment_sharpness(Index level, Index e, Count from_low) const {
 }
 
 float Net::sharpness_beside(Index level, Index e, Index v) const {
-  return segment_sharpness(level, e, topology_.edge_vertices(e)[0] == v ? 0 : segments(level) - 1);
+  return segment_sharpness(level, e, topology_->edge_vertices(e)[0] == v ? 0 : segments(level) - 1);
 }
 
 float Net::sharpness_far(Index level, Index e, Index v) const {
-  return segment_sharpness(level + 1, e, topology_.edge_vertices(e)[0] == v ? 1 : segments(level + 1) - 2);
+  return segment_sharpness(level + 1, e, topology_->edge_vertices(e)[0] == v ? 1 : segments(level + 1) - 2);
 }
 
 void Net::set_rules(bool linear_borders, const Pace& pace) {
-  pace.fill(vertex_rules_, topology_.vertex_count(), linear_ ? VertexRule::corner : VertexRule::smooth);
-  pace.fill(edge_rules_, topology_.edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
+  pace.fill(vertex_rules_, topology_->vertex_count(), linear_ ? VertexRule::corner : VertexRule::smooth);
+  pace.fill(edge_rules_, topology_->edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
   if (linear_) return;
   // Infinitely sharp edges turn a smooth vertex into a dart, a crease, a corner.
   for_each_set(
@@ -143,8 +143,8 @@ void Net::set_rules(bool linear_borders, const Pace& pace) {
           semi_sharp_edges_.push_back(e);
           return;
         }
-        edge_rules_[e] = linear_borders && topology_.is_boundary(e) ? EdgeRule::linear : EdgeRule::crease;
-        for (const Index v : topology_.edge_vertices(e))
+        edge_rules_[e] = linear_borders && topology_->is_boundary(e) ? EdgeRule::linear : EdgeRule::crease;
+        for (const Index v : topology_->edge_vertices(e))
           vertex_rules_[v] = static_cast<VertexRule>(
               std::min(static_cast<int>(vertex_rules_[v]) + 1, static_cast<int>(VertexRule::corner)));
       },
@@ -160,8 +160,8 @@ void Net::set_rules(bool linear_borders, const Pace& pace) {
 
 void Net::list_vertices(const Pace& pace) {
   std::array<bool, kListedValence + 1> present{};
-  pace.for_each(topology_.vertex_count(), [&](Index v) {
-    const std::size_t valence = topology_.vertex_corners(v).size();
+  pace.for_each(topology_->vertex_count(), [&](Index v) {
+    const std::size_t valence = topology_->vertex_corners(v).size();
     if (valence == 0) vertex_rules_[v] = VertexRule::corner;
     if (vertex_rules_[v] <= VertexRule::dart && valence <= kListedValence)
       present[valence] = true;
@@ -249,7 +249,7 @@ SemiSharp Net::decayed(const SemiSharp& level, Index index, const Pace& pace) co
 void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pace& pace) const {
   std::vector<float> parent, child;
   for (const Index v : with_ends({}, from.edges, pace)) {
-    const auto edges = topology_.vertex_edges(v);
+    const auto edges = topology_->vertex_edges(v);
     parent.clear();
     for (const Index e : edges) {
       pace.spend(16);
@@ -260,7 +260,7 @@ void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pa
     for (std::size_t k = 0; k < edges.size(); ++k) {
       pace.spend(16);
       if (const std::size_t at = position(to.edges, edges[k]); at != to.edges.size())
-        to.segments[at * to.per_edge + (topology_.edge_vertices(edges[k])[0] == v ? 0 : to.per_edge - 1)] =
+        to.segments[at * to.per_edge + (topology_->edge_vertices(edges[k])[0] == v ? 0 : to.per_edge - 1)] =
             child[k];
     }
   }
@@ -273,7 +273,7 @@ std::vector<Index> Net::with_ends(std::span<const Index> vertices, std::span<con
   list.reserve(vertices.size() + 2 * edges.size());
   pace.for_each(vertices.size(), [&](std::size_t k) { list.push_back(vertices[k]); });
   pace.for_each(edges.size(), [&](std::size_t k) {
-    for (const Index v : topology_.edge_vertices(edges[k])) list.push_back(v);
+    for (const Index v : topology_->edge_vertices(edges[k])) list.push_back(v);
   });
   pace.sort(list.begin(), list.end(), std::less<>());
   list.erase(std::unique(list.begin(), list.end()), list.end());

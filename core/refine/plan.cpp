@@ -10,6 +10,13 @@
 namespace subdivd {
 namespace {
 
+bool is_channel(const Primvar& primvar) { return primvar.interpolation == Interpolation::face_varying; }
+
+Index value_count(const Primvar& primvar) {
+  return static_cast<Index>(primvar.values.size() / primvar.element_size);
+}
+
+// Of every corner in turn.
 std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar, const Pace& pace) {
   std::vector<Index> corners;
   if (primvar.indices.empty())
@@ -18,6 +25,20 @@ std::vector<Index> corner_values(const ControlMesh& mesh, const Primvar& primvar
   else
     pace.copy(primvar.indices, corners);
   return corners;
+}
+
+// Whether two channels are the same mesh.
+bool are_alike(const Primvar& a, const Primvar& b, const Pace& pace) {
+  return value_count(a) == value_count(b) && pace.equal(a.indices, b.indices);
+}
+
+bool connects_alike(const Topology& topology, const RenderMesh& render, const Pace& pace) {
+  return topology.vertex_count() == render.vertex_count && pace.equal(topology.triangles(), render.indices) &&
+         pace.all_blocks(topology.vertex_count(), [&](Count begin, Count end) {
+           for (Count v = begin; v < end; ++v)
+             if (topology.vertex_corners(static_cast<Index>(v)).empty()) return false;
+           return true;
+         });
 }
 
 }  // namespace
@@ -34,9 +55,7 @@ Result<void> check_level(Index level) {
 constexpr Count kBytesPerFace = 336, kBytesPerPoint = 64;
 
 Count plan_bytes(const ControlMesh& mesh, const PlanOptions& options) {
-  const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, [](const Primvar& primvar) {
-    return primvar.interpolation == Interpolation::face_varying;
-  }));
+  const auto channels = static_cast<Count>(std::ranges::count_if(mesh.primvars, is_channel));
   const Count nets = 1 + channels;
   Count bytes = (kBytesPerFace * mesh.face_count() + kBytesPerPoint * mesh.point_count()) *
                 (nets + (mesh.render_meshes.empty() ? 0 : 1));
@@ -60,7 +79,9 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
     Plan plan;
     std::vector<Index> triangles;
     pace.copy(mesh.face_vertex_indices, triangles);
-    Topology topology(static_cast<Index>(mesh.point_count()), std::move(triangles), pace);
+    auto shared =
+        std::make_shared<const Topology>(static_cast<Index>(mesh.point_count()), std::move(triangles), pace);
+    const Topology& topology = *shared;
     // Sharpness that varies along edges takes memory at every level: not more than points alone would.
     const LevelCounts counts = refined_counts(topology.vertex_count(), topology.edge_count(),
                                               topology.face_count(), options.max_level);
@@ -70,7 +91,7 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
     plan.holes_ = hole_flags(mesh, topology, pace);
     pace.for_each(plan.holes_.size(), [&](std::size_t f) { plan.output_faces_ += plan.holes_[f] == 0; });
     plan.nets_.push_back(std::make_shared<const Net>(Net::build(
-        *scheme, options.crease_method, std::move(topology), std::move(sharpness), options.max_level, pace)));
+        *scheme, options.crease_method, std::move(shared), std::move(sharpness), options.max_level, pace)));
     plan.add_channels(mesh, options.crease_method, pace);
     plan.add_render_meshes(mesh, pace);
     return plan;
@@ -78,26 +99,45 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
 }
 
 void Plan::add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace) {
+  const Net& points = net();
   std::vector<Index> vertices;
+  const Primvar* previous = nullptr;  // not all earlier ones: there may be a hundred thousand
   for (const Primvar& primvar : mesh.primvars) {
     pace.spend(64);
-    if (primvar.interpolation != Interpolation::face_varying) continue;
-    const Net& points = net();
+    if (!is_channel(primvar)) continue;
+    const Primvar* const before = std::exchange(previous, &primvar);
+    if (before != nullptr && are_alike(*before, primvar, pace)) {
+      nets_.push_back(nets_.back());
+      continue;
+    }
+    if (is_as_mesh(mesh, points.topology(), primvar.indices, value_count(primvar), pace)) {
+      nets_.push_back(nets_.front());
+      continue;
+    }
     if (vertices.empty()) vertices = vertices_with_faces(points.topology(), pace);
-    Channel channel = make_channel(mesh, method, points.topology(), points.sharpness(), vertices,
-                                   corner_values(mesh, primvar, pace),
-                                   static_cast<Index>(primvar.values.size() / primvar.element_size), pace);
+    Channel channel = make_channel(mesh, method, points.shared_topology(), points.sharpness(), vertices,
+                                   corner_values(mesh, primvar, pace), value_count(primvar), pace);
     nets_.push_back(std::make_shared<const Net>(Net::build(nets_[0], std::move(channel), pace)));
   }
+}
+
+std::shared_ptr<const Connectivity> Plan::connectivity_of(const RenderMesh& render, const Pace& pace) const {
+  const Index faces = net().topology().face_count();
+  const bool is_whole = render.face_end - render.face_begin == faces && output_faces_ == faces;
+  for (std::size_t k = 0; is_whole && k < nets_.size(); ++k) {
+    pace.spend(4);
+    if (connects_alike(nets_[k]->topology(), render, pace)) return nets_[k]->shared_topology();
+  }
+  std::vector<Index> indices;
+  pace.copy(render.indices, indices);
+  return std::make_shared<const Connectivity>(render.vertex_count, std::move(indices), pace);
 }
 
 void Plan::add_render_meshes(const ControlMesh& mesh, const Pace& pace) {
   render_meshes_.reserve(mesh.render_meshes.size());
   for (const RenderMesh& render : mesh.render_meshes) {
     pace.spend(64);
-    std::vector<Index> indices;
-    pace.copy(render.indices, indices);
-    render_meshes_.emplace_back(render.vertex_count, std::move(indices), pace);
+    render_meshes_.push_back(connectivity_of(render, pace));
   }
 }
 

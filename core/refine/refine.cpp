@@ -167,9 +167,7 @@ class Job {
           break;
         case Interpolation::face_varying: {
           const Net& net = plan_.channel_net(channel++);
-          done = refine_values(
-              net, gather_rows<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_),
-              Smoothing::smooth, options_.limit, out);
+          done = refine_values(net, channel_values(primvar, net), Smoothing::smooth, options_.limit, out);
           if (done) done = write_indices(net, out.indices);
           break;
         }
@@ -177,6 +175,12 @@ class Job {
       if (!done) return done;
     }
     return {};
+  }
+
+  // In the order of the net's vertices.
+  Buffer<Real> channel_values(const Primvar& primvar, const Net& net) const {
+    if (net.value_indices().empty()) return convert_values<Real>(primvar.values, pace_);
+    return gather_rows<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_);
   }
 
   // Row of the primvar's values for every output triangle.

@@ -39,7 +39,8 @@ struct RefinedRenderMesh {
   Index triangle_begin = 0, triangle_end = 0;  // its range in RefinedMesh::triangles, counted in triangles
   Buffer<Index> indices;                       // 3 per triangle, each < vertex_count
   // For every render vertex the refined vertex whose position it copies, and for every face-varying primvar,
-  // in their order, the refined value; kNoIndex: no output triangle uses it (inside a hole).
+  // in their order, the refined value; kNoIndex: no output triangle uses it (inside a hole). An empty array:
+  // that of the vertex's own number, for all.
   Buffer<Index> source_vertices;
   std::vector<Buffer<Index>> source_values;
 };

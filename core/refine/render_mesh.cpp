@@ -45,7 +45,8 @@ Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity& con
   refined.indices.resize(3 * Count{refined.triangle_end - refined.triangle_begin});
   if (auto done = write_triangles(connectivity, level, holes, refined.indices.data(), threads, budget); !done)
     return std::move(done).error();
-  const auto sources = [&](const Net& net) {
+  const auto sources = [&](const Net& net) -> Buffer<Index> {
+    if (&connectivity == &net.topology()) return {};
     return sources_of(connectivity, net.topology(), mesh.face_begin, level, holes, refined.vertex_count,
                       pace);
   };

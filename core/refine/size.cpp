@@ -137,7 +137,11 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
     const auto faces =
         std::ranges::count(plan.holes().subspan(render.face_begin, render.face_end - render.face_begin), 0);
     size.render_vertices.push_back(vertices);
-    size.bytes += vertices * sizeof(Index) * (1 + plan.channel_count()) +
+    const Connectivity& connectivity = plan.render_mesh(k);
+    Count sources = &connectivity != &plan.net().topology();
+    for (std::size_t c = 0; c < plan.channel_count(); ++c)
+      sources += &connectivity != &plan.channel_net(c).topology();
+    size.bytes += vertices * sizeof(Index) * sources +
                   3 * sizeof(Index) * (static_cast<Count>(faces) << (2 * options.level));
   }
   size.working_bytes = working_bytes<Real>(mesh, options, plan, pace);

@@ -82,9 +82,12 @@ Result<void> TrianglesWriter<Real>::find_vertices() {
   }
   render_ = &mesh_.render_meshes[slot_.render_mesh];
   indices_ = std::move(render_->indices);
-  const auto used = stand_in(render_->source_vertices, work_);
-  if (!used) return used.error();
-  vertex_count_ = *used ? render_->vertex_count : 0;
+  vertex_count_ = render_->vertex_count;
+  if (!render_->source_vertices.empty()) {
+    const auto used = stand_in(render_->source_vertices, work_);
+    if (!used) return used.error();
+    if (!*used) vertex_count_ = 0;
+  }
   for (Buffer<Index>& sources : render_->source_values)
     if (auto done = stand_in(sources, work_); !done) return done.error();
   return {};

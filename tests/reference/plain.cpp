@@ -120,7 +120,7 @@ Level first_level(Topology topology, Sharpness sharpness, CreaseMethod method) {
 }
 
 Level first_level(const Channel& channel, const Level& mesh) {
-  Level level{channel.topology, channel.sharpness, {}, channel.linear, channel.linear_borders, mesh.corners};
+  Level level{*channel.topology, channel.sharpness, {}, channel.linear, channel.linear_borders, mesh.corners};
   level.halves = inherited_halves(level, mesh);
   return level;
 }

@@ -22,7 +22,9 @@ struct Control {
 
 Control make_control(const ControlMesh& mesh, CreaseMethod method) {
   Control control;
-  control.topology = Topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  const auto topology =
+      std::make_shared<const Topology>(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  control.topology = *topology;
   control.sharpness = control_sharpness(mesh, control.topology);
   control.holes = hole_flags(mesh, control.topology);
   for (const Primvar& primvar : mesh.primvars) {
@@ -33,7 +35,7 @@ Control make_control(const ControlMesh& mesh, CreaseMethod method) {
       std::iota(corners.begin(), corners.end(), Index{0});
     }
     control.channels.push_back(
-        make_channel(mesh, method, control.topology, control.sharpness, vertices_with_faces(control.topology),
+        make_channel(mesh, method, topology, control.sharpness, vertices_with_faces(control.topology),
                      corners, static_cast<Index>(primvar.values.size() / primvar.element_size)));
   }
   return control;
@@ -242,7 +244,7 @@ class Job {
           {{scheme_, options_, first_level(own, mesh), budget_},
            {{primvar.element_size, false, gathered<Real>(primvar.values, primvar.element_size, own.values)}},
            {{&out.values, &out.limit_values}},
-           &own.topology});
+           own.topology.get()});
       channel_primvars_.push_back(&out);
     }
     points_.emplace(Part{{scheme_, options_, std::move(mesh), budget_},

@@ -111,9 +111,9 @@ TEST(HostileMesh, a_hub_of_many_shared_values_is_numbered_in_linear_time) {
     for (Index& v : triangles) v = v == 0 ? hub : v - 1;
     for (std::size_t h = 0; h < triangles.size(); ++h)
       values.push_back(triangles[h] == hub ? kFaces - 1 - static_cast<Index>(h / 3) : triangles[h]);
-    const Topology topology(kFaces + 1, triangles, pace);
-    const Sharpness sharpness = control_sharpness(mesh, topology, pace);
-    return make_channel(mesh, CreaseMethod::uniform, topology, sharpness, vertices_with_faces(topology),
+    const auto topology = std::make_shared<const Topology>(kFaces + 1, triangles, pace);
+    const Sharpness sharpness = control_sharpness(mesh, *topology, pace);
+    return make_channel(mesh, CreaseMethod::uniform, topology, sharpness, vertices_with_faces(*topology),
                         values, kFaces, pace);
   });
   ASSERT_TRUE(channel.ok());
