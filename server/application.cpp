@@ -18,14 +18,25 @@ namespace {
 
 constexpr std::string_view kSpectrumPath = "/v1/schemes/{name}/{valence}";
 
+std::size_t processors() { return std::max(1u, std::thread::hardware_concurrency()); }
+
 Grants::Shares shares_of(const Config& config, Count bytes) {
   Grants::Shares shares;
-  shares.places =
-      config.max_concurrent > 0 ? config.max_concurrent : std::max(1u, std::thread::hardware_concurrency());
+  shares.places = config.max_concurrent > 0 ? config.max_concurrent : processors();
   shares.small_places = std::max<std::size_t>(shares.places, 2);
   shares.max_waiting = config.max_waiting;
   shares.bytes = bytes;
   return shares;
+}
+
+// Beside the thread that answers a request.
+Index helper_count(const Config& config) {
+  return static_cast<Index>((config.request_threads > 0 ? config.request_threads : processors()) - 1);
+}
+
+// Processors that no request computes on.
+Index spare_processors(const Grants& grants) {
+  return static_cast<Index>(processors() - std::min(processors(), grants.running()));
 }
 
 Response text_response(std::string content_type, std::string text) {
@@ -48,7 +59,8 @@ Response page_response() {
 Application::Application(const Config& config, Count bytes)
     : config_(config),
       grants_(shares_of(config, bytes)),
-      geometry_(config, grants_),
+      helpers_(helper_count(config), [this] { return spare_processors(grants_); }),
+      geometry_(config, grants_, helpers_),
       cors_(config.cors_origins),
       router_(routes()) {}
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "core/base/thread_pool.h"
 #include "server/config.h"
 #include "server/cors.h"
 #include "server/geometry_handlers.h"
@@ -41,6 +42,7 @@ class Application final : public Service {
 
   const Config& config_;
   Grants grants_;
+  ThreadPool helpers_;
   GeometryHandlers geometry_;
   const Cors cors_;
   const Router router_;

@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kLogPatience{500}, kStopPatience{2000};
 
-// Freed memory that the allocator may keep for the next request.
-constexpr std::uint64_t kLeastSlack = std::uint64_t{16} << 20;
+// Freed memory that the allocator may keep for the next request: small blocks, and of large ones a share of
+// what all requests may take.
+constexpr std::uint64_t kLeastSlack = std::uint64_t{16} << 20, kKeptShare = 8;
 
 std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<long long>(seconds * 1000));
@@ -143,10 +144,11 @@ int serve(const Config& config) {
   // Threads inherit the mask, so the signals wait for sigwait and interrupt nothing.
   const sigset_t signals = handled_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  tune_allocator();
   signal(SIGPIPE, SIG_IGN);  // a closed log must not end the process
   start_log(config.log_level);
   const MemoryShares shares = share_out(config);
+  const std::uint64_t kept = shares.work / kKeptShare;
+  tune_allocator(kept, shares.work);
   RequestMemory bodies(shares.bodies);
   Application application(config, shares.work);
   if (!application.prepare()) log_error("the self-test against OpenSubdiv failed: /readyz says no");
@@ -158,7 +160,7 @@ int serve(const Config& config) {
   std::cout << "subdivd listens on " << url_of(config, transport.port()) << std::endl;
   const Housekeeper housekeeper(
       [&] { return use_of(application, bodies); },
-      {own_bytes(config), std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
+      {own_bytes(config), kept + std::max(config.max_memory_bytes / 32, kLeastSlack), kLeastSlack});
   wait_for_the_end(signals, application, bodies, transport);
   const bool stopped = drain(config, application, transport);
   // A reader of the log that has stalled keeps the writing thread for ever: leave without it.

@@ -101,8 +101,8 @@ Result<proto::RefineRequest> decode_curves(const Request& request, const proto::
 
 }  // namespace
 
-GeometryHandlers::GeometryHandlers(const Config& config, Grants& grants)
-    : config_(config), limits_(limits_of(config)), grants_(grants) {}
+GeometryHandlers::GeometryHandlers(const Config& config, Grants& grants, Helpers& helpers)
+    : config_(config), limits_(limits_of(config)), grants_(grants), helpers_(helpers) {}
 
 Budget GeometryHandlers::budget_for(const Request& request) const {
   Budget budget;
@@ -110,6 +110,7 @@ Budget GeometryHandlers::budget_for(const Request& request) const {
   budget.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                        std::chrono::duration<double>(config_.deadline_seconds));
   budget.cancelled = request.cancelled;
+  if (helpers_.most() > 0) budget.helpers = &helpers_;
   return budget;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/budget.h"
+#include "core/base/helpers.h"
 #include "core/base/result.h"
 #include "proto/curve_task.h"
 #include "proto/wire.h"
@@ -18,8 +19,8 @@ namespace subdivd::server {
 
 class GeometryHandlers {
  public:
-  // Both must outlive the handlers.
-  GeometryHandlers(const Config& config, Grants& grants);
+  // All must outlive the handlers.
+  GeometryHandlers(const Config& config, Grants& grants, Helpers& helpers);
 
   Response refine(Request& request);
   Response verify(Request& request);
@@ -41,6 +42,7 @@ class GeometryHandlers {
   const Config& config_;
   const proto::Limits limits_;
   Grants& grants_;
+  Helpers& helpers_;
 };
 
 // What a request's head already tells about its body: a refusal (415), or nothing.

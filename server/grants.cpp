@@ -114,6 +114,11 @@ Grants::Wish Grants::Grant::wish() const {
   return {wanted_ > grants_.most_small_bytes_ ? Lane::large : lane_, wanted_};
 }
 
+std::size_t Grants::running() const {
+  const std::lock_guard lock(mutex_);
+  return small_.running.size() + large_.running.size();
+}
+
 Grants::State Grants::state() const {
   const std::lock_guard lock(mutex_);
   State state;

@@ -86,6 +86,8 @@ class Grants {
     Count granted = 0;  // ever
   };
   State state() const;
+  // How many requests are being computed.
+  std::size_t running() const;
 
  private:
   struct Pool {

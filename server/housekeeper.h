@@ -1,7 +1,7 @@
 #pragma once
-// Gives memory back to the system that requests have freed. The allocator keeps it for the next request,
-// which saves page faults (a tenth of the time of a refinement), but would keep the peak of the busiest
-// minute for ever.
+// Gives memory back to the system that requests have freed. The allocator and core/base/large_blocks keep it
+// for the next request, which saves page faults (up to half of the time of a request with a large answer), but
+// would keep the peak of the busiest minute for ever.
 
 #include <condition_variable>
 #include <cstdint>
@@ -24,7 +24,7 @@ class Housekeeper {
   };
 
   // Twice a second: trims when more is resident than the process's own, what `use` tells, and the slack.
-  // `use` is called from a thread of its own.
+  // Idle is who has had no request for two seconds. `use` is called from a thread of its own.
   Housekeeper(std::function<Use()> use, const Slack& slack);
   ~Housekeeper();
   Housekeeper(const Housekeeper&) = delete;
@@ -41,9 +41,9 @@ class Housekeeper {
   std::thread thread_;
 };
 
-// Makes the allocator keep freed memory in few places, where other threads find it again. Call before any
-// thread starts.
-void tune_allocator();
+// Makes the allocator keep freed memory in few places, where other threads find it again; of large blocks
+// `kept` bytes at most, and together with those in use no more than `ceiling`. Call before any thread starts.
+void tune_allocator(std::uint64_t kept, std::uint64_t ceiling);
 
 // Bytes of physical memory that this process takes; 0 when the system does not tell.
 std::uint64_t resident_bytes();

@@ -1,5 +1,5 @@
 #pragma once
-// What a piece of work may use: bytes, time, and the patience of whoever asked. Every loop that can run
+// What a piece of work may use: bytes, time, threads, and the patience of whoever asked. Every loop that can run
 // long polls the budget; sizes are predicted and checked against it before anything is allocated.
 
 #include <atomic>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/helpers.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 
@@ -37,6 +38,9 @@ class Budget {
   Clock::time_point deadline = Clock::time_point::max();
   // Set by another thread when nobody waits for the answer any more; may be null. Must outlive the work.
   const std::atomic<bool>* cancelled = nullptr;
+  // Threads that may work on it as well, where it says how many it can use; null: they are made for it. Must
+  // outlive the work.
+  Helpers* helpers = nullptr;
   // Where memory is taken from; null: there is enough. Must outlive the work.
   MemoryGrant* memory = nullptr;
 

@@ -9,10 +9,12 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/budget.h"
+#include "core/base/helpers.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
 
@@ -58,10 +60,31 @@ class Worker {
   Count steps_ = 0;
 };
 
+// For who has no other: threads made for one job.
+class MadeThreads final : public Helpers {
+ public:
+  Index most() const override { return kNoIndex; }
+  Index start(Index most, Job& job) override {
+    threads_.reserve(most);
+    try {
+      for (Index k = 1; k <= most; ++k) threads_.emplace_back([&job, k] { job.run(k); });
+    } catch (const std::exception&) {  // no more threads, or no memory for them
+      // The threads that there are do the work of all.
+    }
+    return static_cast<Index>(threads_.size());
+  }
+  void finish(Job&) override {
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  std::vector<std::thread> threads_;
+};
+
 class Team {
  public:
-  // Calls work(worker) once on each of `threads` threads (at least 1; fewer when the system has no more to
-  // give) and waits for all. `work` returns early when go_on or meet says false; the reason is returned here.
+  // Calls work(worker) once on each of `threads` threads (at least 1; fewer when there are no more helpers)
+  // and waits for all. `work` returns early when go_on or meet says false; the reason is returned here.
   // What one of them throws (out of memory) stops all and is thrown here, when all have ended.
   template <class Work>
   static Result<void> run(Index threads, const Budget& budget, Work&& work) {
@@ -76,26 +99,36 @@ class Team {
   friend class Worker;
   explicit Team(const Budget& budget) : budget_(budget) {}
 
+  // The work as the helpers see it: how many share it is known only when they have been asked.
+  template <class Work>
+  class Parts final : public Helpers::Job {
+   public:
+    Parts(Team& team, Work& work) : team_(team), work_(work) {}
+    void run(Index k) override {
+      count_.wait(0);
+      team_.guarded(work_, Worker(team_, k, count_));
+    }
+    void begin(Index count) {
+      count_ = count;
+      count_.notify_all();
+    }
+
+   private:
+    Team& team_;
+    Work& work_;
+    std::atomic<Index> count_{0};
+  };
+
   template <class Work>
   void start(Index threads, Work&& work) {
-    std::vector<std::thread> others;
-    others.reserve(threads);
-    std::atomic<Index> count{0};
-    try {
-      for (Index k = 1; k < threads; ++k)
-        others.emplace_back([&, k] {
-          count.wait(0);
-          guarded(work, Worker(*this, k, count));
-        });
-    } catch (const std::system_error&) {
-      // The threads that there are do the work of all.
-    }
-    const auto all = static_cast<Index>(others.size() + 1);
-    barrier_.emplace(all);
-    count = all;
-    count.notify_all();
-    guarded(work, Worker(*this, 0, all));
-    for (std::thread& other : others) other.join();
+    Parts<std::remove_reference_t<Work>> parts(*this, work);
+    MadeThreads made;
+    Helpers& helpers = budget_.helpers != nullptr ? *budget_.helpers : static_cast<Helpers&>(made);
+    const Index others = threads > 1 ? helpers.start(threads - 1, parts) : 0;
+    barrier_.emplace(others + 1);
+    parts.begin(others + 1);
+    parts.run(0);
+    if (others > 0) helpers.finish(parts);
   }
 
   template <class Work>

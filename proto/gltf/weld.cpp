@@ -63,7 +63,8 @@ Result<bool> weld_by_hashing(const R& rows, Count count, Welded& weld, Work& wor
   const Count mask = (Count{1} << slot_bits) - 1;
   const Index tag_mask = ~((Index{1} << std::bit_width(count)) - 1);
   const Count bytes = (mask + 1) * sizeof(Index);
-  const auto held = work.hold(bytes + (bytes >= kHugePage ? kHugePage : kBlockBytes));
+  const auto held =
+      work.hold(bytes + (bytes >= large_blocks::kHugePage ? large_blocks::kHugePage : kBlockBytes));
   if (!held) return held.error();
   // Looked into everywhere at once: small pages would cost a walk for each look.
   Buffer<Index> slots;

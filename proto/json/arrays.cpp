@@ -59,7 +59,7 @@ bool read_tuple(Cursor& cursor, std::uint64_t i, std::string_view noun, Tuples& 
 template <class Scalar>
 void reserve(std::vector<Scalar>& out, std::size_t count) {
   out.reserve(count);
-  prefer_huge_pages(out.data(), out.capacity() * sizeof(Scalar));
+  large_blocks::prefer_huge_pages(out.data(), out.capacity() * sizeof(Scalar));
 }
 
 // Enters the array and makes room for as many scalars as there can be in it.

@@ -16,7 +16,7 @@ constexpr std::size_t kMostOfSkipped = 2 * kLongestClientText;
 // At once: growing would copy what is there, in one go that nothing stops.
 void reserve(std::string& text, std::size_t size) {
   text.reserve(size);
-  prefer_huge_pages(text.data(), text.capacity());
+  large_blocks::prefer_huge_pages(text.data(), text.capacity());
 }
 
 bool is_hex_digit(char c) { return is_digit(c) || ((c | 0x20) >= 'a' && (c | 0x20) <= 'f'); }
