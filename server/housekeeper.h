@@ -41,8 +41,8 @@ class Housekeeper {
   std::thread thread_;
 };
 
-// Makes the allocator keep freed memory in few places, where other threads find it again; of large blocks
-// `kept` bytes at most, and together with those in use no more than `ceiling`. Call before any thread starts.
+// Makes the allocator keep freed memory, in few places, where other threads find it again: of large blocks
+// `kept` bytes at most, and together with those in use no more than `ceiling`; of others a quarter of that. Call before any thread starts.
 void tune_allocator(std::uint64_t kept, std::uint64_t ceiling);
 
 // Bytes of physical memory that this process takes; 0 when the system does not tell.

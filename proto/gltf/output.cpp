@@ -16,29 +16,11 @@ constexpr Index kMaxShortVertices = 65535;
 // Printed raw where the text of the buffer goes; escaped everywhere else, so it is found without fail.
 constexpr char kUriMark = '\x01';
 
-constexpr Count kPiece = 16384;  // scalars between two looks at the clock
-
-Result<Json> bounds_of(std::span<const float> values, Index components, Work& work) {
-  std::vector<float> low(values.begin(), values.begin() + components), high = low;
-  for (Count first = 0; first < values.size(); first += kPiece * components) {
-    const auto piece = values.subspan(first, std::min(values.size() - first, kPiece * components));
-    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
-    for (Count i = 0; i < piece.size(); i += components)
-      for (Index k = 0; k < components; ++k) {
-        low[k] = std::min(low[k], piece[i + k]);
-        high[k] = std::max(high[k], piece[i + k]);
-      }
-  }
-  const auto print = [](const std::vector<float>& bound) {
-    Json::Array numbers;
-    // As doubles: the shortest text of a float is another number to readers that compare in double.
-    for (const float value : bound) numbers.push_back(Json::number(static_cast<double>(value)));
-    return Json(std::move(numbers));
-  };
-  Json bounds;
-  bounds.set("min", print(low));
-  bounds.set("max", print(high));
-  return bounds;
+// As doubles: the shortest text of a float is another number to readers that compare in double.
+Json print_bound(const std::vector<float>& bound) {
+  Json::Array numbers;
+  for (const float value : bound) numbers.push_back(Json::number(static_cast<double>(value)));
+  return Json(std::move(numbers));
 }
 
 void append_word(std::string& out, Count word) {
@@ -98,13 +80,16 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
   return static_cast<Index>(accessors_.size() - 1);
 }
 
-Result<Index> Output::add_floats(Buffer<float> values, Index components, bool with_bounds) {
+Index Output::add_floats(Buffer<float> values, Index components, const FloatScan& bounds) {
   static constexpr std::array<std::string_view, 5> kTypes{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-  auto bounds = with_bounds ? bounds_of(values, components, work_) : Result<Json>(Json());
-  if (!bounds) return bounds.error();
+  Json printed;
+  if (!bounds.least.empty()) {
+    printed.set("min", print_bound(bounds.least));
+    printed.set("max", print_bound(bounds.most));
+  }
   const Count count = values.size() / components;
   return add_accessor(Chunk::own(std::move(values)), count, kFloat, kTypes[components], Target::vertices,
-                      *std::move(bounds));
+                      std::move(printed));
 }
 
 Result<Index> Output::add_indices(Buffer<Index> values, Index vertex_count) {
@@ -112,11 +97,11 @@ Result<Index> Output::add_indices(Buffer<Index> values, Index vertex_count) {
   if (vertex_count > kMaxShortVertices)
     return add_accessor(Chunk::own(std::move(values)), count, kUnsignedInt, "SCALAR", Target::indices, {});
   Buffer<std::uint16_t> narrow(values.size());
-  for (Count i = 0; i < count; ++i) {
-    if (i % kPiece == 0)
-      if (auto stop = work_.spend(kPiece / 4)) return *std::move(stop);
-    narrow[i] = static_cast<std::uint16_t>(values[i]);
-  }
+  const auto done = in_shared_blocks(count, work_, [&](Count begin, Count end) {
+    std::transform(&values[begin], &values[begin] + (end - begin), &narrow[begin],
+                   [](Index value) { return static_cast<std::uint16_t>(value); });
+  });
+  if (!done) return done.error();
   return add_accessor(Chunk::own(std::move(narrow)), count, kUnsignedShort, "SCALAR", Target::indices, {});
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/base/buffer.h"
 #include "core/base/result.h"
+#include "proto/gltf/floats.h"
 #include "proto/gltf/source.h"
 #include "proto/wire.h"
 
@@ -25,8 +26,8 @@ class Output {
 
   Json& primitive(Index mesh, Index primitive);
   // Both append one bufferView and one accessor and return the accessor's number.
-  // values: `components` per element; 1 SCALAR, 2..4 VECn.
-  Result<Index> add_floats(Buffer<float> values, Index components, bool with_bounds);
+  // values: `components` per element; 1 SCALAR, 2..4 VECn. `bounds`: of them, where it has any.
+  Index add_floats(Buffer<float> values, Index components, const FloatScan& bounds);
   // Of 16 bits where `vertex_count` allows it.
   Result<Index> add_indices(Buffer<Index> values, Index vertex_count);
 

@@ -19,6 +19,7 @@ class Work {
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
+  const Budget& budget() const { return budget_; }
   // After (or before) `steps` of some 10 ns. Empty: go on. Otherwise the reason to stop.
   std::optional<Error> spend(Count steps) { return poller_.spend(steps); }
   // Copying and comparing go through memory faster: per byte.

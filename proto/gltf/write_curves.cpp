@@ -95,13 +95,14 @@ Result<void> write_curves(const CurvesSlot& slot, const std::vector<RefinedCurve
     const bool color = semantic_of(attribute.name) == Semantic::color;
     auto values = gather(runs, attribute.offset, attribute.components, color, work);
     if (!values) return values.error();
-    if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); }))
+    const auto scanned = scan_floats(*values, attribute.components, bounds, Clamp::none, work);
+    if (!scanned) return scanned.error();
+    if (!scanned->finite)
       return Error{
           ErrorCode::not_finite,
           in_quotes(attribute.name) + " of a curve holds values too large for the single precision of glTF"};
-    const auto accessor = output.add_floats(*std::move(values), attribute.components, bounds);
-    if (!accessor) return accessor.error();
-    attributes.set(attribute.name, Json::number(Count{*accessor}));
+    const Index accessor = output.add_floats(*std::move(values), attribute.components, *scanned);
+    attributes.set(attribute.name, Json::number(Count{accessor}));
     return {};
   };
   if (auto added = add({"POSITION", 0, 0, 3}, true); !added) return added;

@@ -21,15 +21,6 @@ Error not_single(const std::string& attribute) {
 
 constexpr Count kPiece = 16384;  // elements between two looks at the clock
 
-Result<bool> are_finite(std::span<const float> values, Work& work) {
-  for (; !values.empty(); values = values.subspan(std::min(values.size(), kPiece))) {
-    const auto piece = values.first(std::min(values.size(), kPiece));
-    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
-    if (!all_finite(piece)) return false;
-  }
-  return true;
-}
-
 template <class Real>
 class TrianglesWriter {
  public:
@@ -47,7 +38,7 @@ class TrianglesWriter {
   Result<Buffer<float>> normals(std::span<const float> positions);
   Result<Buffer<float>> attribute(const AttributeSlot& attribute);
   std::span<const Index> sources_of(const AttributeSlot& attribute) const;
-  Result<void> add(const std::string& name, Buffer<float> values, Index components, bool bounds);
+  Result<void> add(const std::string& name, Buffer<float> values, Index components);
 
   const TrianglesSlot& slot_;
   RefinedMesh<Real>& mesh_;
@@ -103,18 +94,14 @@ Result<Buffer<float>> TrianglesWriter<Real>::taken(Buffer<Real>& values, Index w
     if (sources.empty() && width == components && values.size() == Count{vertex_count_} * width)
       return std::move(values);
   Buffer<float> out(Count{vertex_count_} * components);
-  const auto gather = [&](auto count) -> Result<void> {
-    float* to = out.data();
-    for (Index begin = 0; begin < vertex_count_;) {
-      const auto end = static_cast<Index>(std::min<Count>(begin + kPiece, vertex_count_));
-      for (Index v = begin; v < end; ++v, to += count) {
-        const Real* from = values.data() + Count{sources.empty() ? v : sources[v]} * width;
+  const auto gather = [&](auto count) {
+    return in_shared_blocks(vertex_count_, work_, [&](Count begin, Count end) {
+      float* to = out.data() + begin * count;
+      for (Count v = begin; v < end; ++v, to += count) {
+        const Real* from = values.data() + (sources.empty() ? v : Count{sources[v]}) * width;
         for (Index k = 0; k < count; ++k) to[k] = static_cast<float>(from[k]);
       }
-      if (auto stop = work_.spend(end - begin)) return *std::move(stop);
-      begin = end;
-    }
-    return {};
+    });
   };
   const auto gathered = components == 3   ? gather(std::integral_constant<Index, 3>{})
                         : components == 2 ? gather(std::integral_constant<Index, 2>{})
@@ -192,24 +179,18 @@ template <class Real>
 Result<Buffer<float>> TrianglesWriter<Real>::attribute(const AttributeSlot& attribute) {
   RefinedPrimvar<Real>& primvar = mesh_.primvars[attribute.primvar];
   Buffer<Real>& values = primvar.limit_values.empty() ? primvar.values : primvar.limit_values;
-  auto out = taken(values, primvar.element_size, attribute.components, sources_of(attribute));
-  if (!out || semantic_of(attribute.name) != Semantic::color) return out;
-  for (std::span<float> rest(*out); !rest.empty(); rest = rest.subspan(std::min(rest.size(), kPiece))) {
-    if (auto stop = work_.spend(kPiece / 4)) return *std::move(stop);
-    for (float& value : rest.first(std::min(rest.size(), kPiece))) value = std::clamp(value, 0.0f, 1.0f);
-  }
-  return out;
+  return taken(values, primvar.element_size, attribute.components, sources_of(attribute));
 }
 
 template <class Real>
-Result<void> TrianglesWriter<Real>::add(const std::string& name, Buffer<float> values, Index components,
-                                        bool bounds) {
-  const auto finite = are_finite(values, work_);
-  if (!finite) return finite.error();
-  if (!*finite) return not_single(name);
-  const auto accessor = output_.add_floats(std::move(values), components, bounds);
-  if (!accessor) return accessor.error();
-  attributes_.set(name, Json::number(Count{*accessor}));
+Result<void> TrianglesWriter<Real>::add(const std::string& name, Buffer<float> values, Index components) {
+  const bool is_position = name == "POSITION";
+  const Clamp clamp = semantic_of(name) == Semantic::color ? Clamp::unit : Clamp::none;
+  const auto scanned = scan_floats(values, components, is_position, clamp, work_);
+  if (!scanned) return scanned.error();
+  if (!scanned->finite) return not_single(name);
+  const Index accessor = output_.add_floats(std::move(values), components, *scanned);
+  attributes_.set(name, Json::number(Count{accessor}));
   return {};
 }
 
@@ -222,22 +203,19 @@ Result<void> TrianglesWriter<Real>::write() {
   const bool empty = vertex_count_ == 0;
   auto points = empty ? Result<Buffer<float>>(Buffer<float>(3, 0.0f)) : positions();
   if (!points) return points.error();
-  const auto finite = are_finite(*points, work_);
-  if (!finite) return finite.error();
-  if (!*finite) return not_single("POSITION");
   if (indices_.empty()) indices_ = {0, 0, 0};
   Result<Buffer<float>> unit = Buffer<float>{0, 0, 1};
   if (slot_.normals && !empty) unit = normals(*points);
   if (!unit) return unit.error();
-  if (auto added = add("POSITION", *std::move(points), 3, true); !added) return added;
+  if (auto added = add("POSITION", *std::move(points), 3); !added) return added;
   if (slot_.normals)
-    if (auto added = add("NORMAL", *std::move(unit), 3, false); !added) return added;
+    if (auto added = add("NORMAL", *std::move(unit), 3); !added) return added;
   for (const AttributeSlot& slot : slot_.attributes) {
     const bool split = mesh_.primvars[slot.primvar].interpolation == Interpolation::face_varying;
     if (split && render_ == nullptr && !empty) continue;  // add_render_meshes was not called
     auto values = empty ? Result<Buffer<float>>(Buffer<float>(slot.components, 0.0f)) : attribute(slot);
     if (!values) return values.error();
-    if (auto added = add(slot.name, *std::move(values), slot.components, false); !added) return added;
+    if (auto added = add(slot.name, *std::move(values), slot.components); !added) return added;
   }
   const auto accessor = output_.add_indices(std::move(indices_), std::max<Index>(vertex_count_, 1));
   if (!accessor) return accessor.error();

@@ -120,6 +120,41 @@ TEST(engine, equals_the_plain_one_on_random_meshes) {
   }
 }
 
+// The mesh's own corners as a channel's, with values of its own; and once more, as a second channel.
+ControlMesh with_values_on_points(ControlMesh mesh) {
+  Primvar primvar{"st", Interpolation::face_varying, 2, {}, mesh.face_vertex_indices};
+  for (Count v = 0; v < mesh.point_count(); ++v)
+    primvar.values.insert(primvar.values.end(), {mesh.points[3 * v] * 2, mesh.points[3 * v + 1] - 1});
+  mesh.primvars = {primvar, primvar};
+  mesh.primvars[1].name = "uv";
+  return mesh;
+}
+
+bool has_border(const Topology& topology) {
+  return std::ranges::count(topology.edge_kinds(), EdgeKind::border) > 0;
+}
+
+TEST(engine, channels_that_connect_as_the_mesh_does_equal_the_plain_ones) {
+  using enum FaceVaryingInterpolation;
+  int as_mesh = 0, of_their_own = 0;
+  for (const shapes::NamedShape& shape : shapes::all_shapes())
+    for (const auto mode : {none, corners_only, corners_plus1, corners_plus2, boundaries, all}) {
+      ControlMesh mesh = with_values_on_points(shape.mesh);
+      mesh.face_varying_linear_interpolation = mode;
+      const auto plan = Plan::build(mesh, {}, {});
+      ASSERT_TRUE(plan.ok()) << shape.name;
+      const bool shared = &plan->channel_net(0) == &plan->net();
+      EXPECT_EQ(shared, mode != all && !has_border(plan->net().topology())) << shape.name;
+      EXPECT_EQ(&plan->channel_net(1), &plan->channel_net(0)) << shape.name;
+      ++(shared ? as_mesh : of_their_own);
+      const std::string what = shape.name + " mode " + std::to_string(static_cast<int>(mode));
+      expect_as_plain<double>(mesh, everything(2), what);
+      if (HasFailure()) return;
+    }
+  EXPECT_GT(as_mesh, 20);
+  EXPECT_GT(of_their_own, 20);
+}
+
 template <class Real>
 void expect_same_bytes(const RefinedMesh<Real>& a, const RefinedMesh<Real>& b, const std::string& what) {
   EXPECT_EQ(a.points, b.points) << what;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/refine/refine.h"
 #include "tests/shapes/build.h"
@@ -69,6 +71,57 @@ TEST(RenderMesh, parts_take_their_own_ranges_of_triangles) {
   for (const RefinedRenderMesh& render : refined->render_meshes)
     for (Count k = 0; k < render.indices.size(); ++k)
       EXPECT_EQ(render.source_vertices[render.indices[k]], refined->triangles[3 * render.triangle_begin + k]);
+}
+
+// The whole mesh, under its own numbers.
+ControlMesh rendered_as_it_is(ControlMesh mesh) {
+  mesh.render_meshes = {{0, static_cast<Index>(mesh.face_count()), static_cast<Index>(mesh.point_count()),
+                         mesh.face_vertex_indices}};
+  return mesh;
+}
+
+RefinedRenderMesh refined_render_mesh(const ControlMesh& mesh) {
+  EXPECT_TRUE(mesh.check().ok());
+  auto refined = refine<float>(mesh, {.level = 2}, {});
+  EXPECT_TRUE(refined.ok());
+  EXPECT_EQ(refined->render_meshes[0].indices.size(), refined->triangles.size());
+  return std::move(refined->render_meshes[0]);
+}
+
+TEST(RenderMesh, that_connects_as_the_mesh_does_needs_no_sources) {
+  const ControlMesh mesh = rendered_as_it_is(shapes::icosahedron());
+  const RefinedRenderMesh render = refined_render_mesh(mesh);
+  EXPECT_TRUE(render.source_vertices.empty());
+  EXPECT_EQ(render.indices, refine<float>(mesh, {.level = 2}, {})->triangles);
+  EXPECT_EQ(render.vertex_count, refine<float>(mesh, {.level = 2}, {})->points.size() / 3);
+}
+
+TEST(RenderMesh, with_a_hole_says_which_vertices_no_triangle_uses) {
+  ControlMesh mesh = rendered_as_it_is(shapes::icosahedron());
+  mesh.hole_indices = {3};
+  const RefinedRenderMesh render = refined_render_mesh(mesh);
+  // The three points inside the hole.
+  EXPECT_EQ(std::ranges::count(render.source_vertices, kNoIndex), 3);
+}
+
+TEST(RenderMesh, with_a_point_that_no_face_uses_says_so) {
+  ControlMesh mesh = shapes::icosahedron();
+  mesh.points.insert(mesh.points.end(), {9, 9, 9});
+  const RefinedRenderMesh render = refined_render_mesh(rendered_as_it_is(mesh));
+  EXPECT_EQ(std::ranges::count(render.source_vertices, kNoIndex), 1);
+}
+
+TEST(RenderMesh, whose_seams_are_those_of_a_channel_takes_that_channels_values_as_they_are) {
+  ControlMesh mesh = shapes::icosahedron();
+  mesh.primvars = {shapes::seamed(mesh, "st", 2, shapes::edges_along({0, 1, 2}))};
+  const Primvar& st = mesh.primvars[0];
+  mesh.render_meshes = {
+      {0, static_cast<Index>(mesh.face_count()), static_cast<Index>(st.values.size() / 2), st.indices}};
+  const RefinedRenderMesh render = refined_render_mesh(mesh);
+  EXPECT_EQ(render.source_vertices.size(), render.vertex_count);
+  ASSERT_EQ(render.source_values.size(), 1u);
+  EXPECT_TRUE(render.source_values[0].empty());
+  EXPECT_EQ(render.indices, refine<float>(mesh, {.level = 2}, {})->primvars[0].indices);
 }
 
 }  // namespace
