@@ -122,7 +122,7 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
                  .allowed = limits.max_body_bytes};
   Result<RefineRequest> request = read_any(body, kind, query, limits, budget);
   if (!request) return request;
-  if (Result<void> fine = check_options(request->options, limits, query); !fine) return fine.error();
+  if (Result<void> fine = check_options(*request, limits, query); !fine) return fine.error();
   override_meshes(*request);
   if (Result<void> fine = prepare(*request, budget); !fine) return fine.error();
   if (answer_format(*request) != Format::json)

@@ -9,8 +9,10 @@
 #include <set>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/refine/split.h"
+#include "core/schemes/all.h"
 #include "proto/client_text.h"
 #include "proto/suggest.h"
 
@@ -18,7 +20,6 @@ namespace subdivd::proto {
 namespace {
 
 // Words in the order of the enumerators they stand for: the index of a word is the enumerator's value.
-constexpr std::array<std::string_view, 2> kLoopWeights = {"loop", "warren"};
 constexpr std::array<std::string_view, 3> kBoundary = {"none", "edgeOnly", "edgeAndCorner"};
 constexpr std::array<std::string_view, 6> kFaceVarying = {"none",         "cornersOnly", "cornersPlus1",
                                                           "cornersPlus2", "boundaries",  "all"};
@@ -28,7 +29,6 @@ constexpr std::array<std::string_view, 2> kPrecision = {"single", "double"};
 constexpr std::array<std::string_view, 2> kWeld = {"exact", "none"};
 constexpr std::array<std::string_view, 3> kFormat = {"json", "glb", "gltf"};
 
-static_assert(kLoopWeights.size() == static_cast<std::size_t>(LoopWeights::warren) + 1);
 static_assert(kBoundary.size() == static_cast<std::size_t>(BoundaryInterpolation::edge_and_corner) + 1);
 static_assert(kFaceVarying.size() == static_cast<std::size_t>(FaceVaryingInterpolation::all) + 1);
 static_assert(kCreaseMethod.size() == static_cast<std::size_t>(CreaseMethod::chaikin) + 1);
@@ -64,9 +64,8 @@ std::optional<std::uint64_t> get(const Options& options) {
 }
 
 template <auto member>
-constexpr OptionSpec option(OptionKind kind, std::string_view name, std::span<const std::string_view> words,
-                            std::string_view default_value, std::string_view applies_to,
-                            std::string_view help) {
+OptionSpec option(OptionKind kind, std::string_view name, std::span<const std::string_view> words,
+                  std::string_view default_value, std::string_view applies_to, std::string_view help) {
   return {.name = name,
           .kind = kind,
           .words = words,
@@ -83,7 +82,7 @@ constexpr auto kInteger = OptionKind::integer;
 constexpr auto kWord = OptionKind::word;
 
 // clang-format off
-constexpr std::array kTable = {
+std::vector<OptionSpec> options_of_all() { return {
   option<&Options::level>(kInteger, "level", {}, "2", "meshes, curves, surfaces, glTF",
     "How often to refine. Every level makes four triangles (or quads) of one and doubles a curve's segments. The server may allow less than the maximum."),
   option<&Options::limit>(kBoolean, "limit", {}, "false", "meshes, curves, surfaces, glTF",
@@ -94,8 +93,9 @@ constexpr std::array kTable = {
     "Attach the report of the comparison with OpenSubdiv."),
   option<&Options::triangulate>(kBoolean, "triangulate", {}, "false", "meshes",
     "Split faces of more than three vertices into fans from their first vertex instead of refusing them."),
-  option<&Options::loop_weights>(kWord, "loopWeights", kLoopWeights, "loop", "meshes, glTF",
-    "Weights of the smooth vertex point: Loop 1987 or Warren 1995. They agree at valences 3 and 6 only."),
+}; }
+
+std::vector<OptionSpec> options_of_kinds() { return {
   option<&Options::interpolate_boundary>(kWord, "interpolateBoundary", kBoundary, "", "meshes, glTF",
     "What happens where the surface ends; set here it overrides every mesh of the body. Default: the mesh's own, edgeAndCorner where it has none."),
   option<&Options::face_varying_linear_interpolation>(kWord, "faceVaryingLinearInterpolation", kFaceVarying, "", "meshes, glTF",
@@ -110,14 +110,46 @@ constexpr std::array kTable = {
     "exact: vertices of one glTF mesh with bit-identical positions are one point, so seams cannot crack; none: the indices alone decide."),
   option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, surfaces, glTF",
     "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body."),
-};
+}; }
 // clang-format on
 
-constexpr auto kNames = [] {
-  std::array<std::string_view, kTable.size()> names;
-  for (std::size_t i = 0; i < kTable.size(); ++i) names[i] = kTable[i].name;
-  return names;
-}();
+// Of scheme S, as a request sets them.
+template <class S>
+void add_scheme_options(std::vector<OptionSpec>& table) {
+  for (const SchemeOption<S>& option : S::options())
+    table.push_back(
+        {.name = option.name,
+         .kind = kWord,
+         .words = option.words,
+         .maximum = 1,
+         .default_value = option.words[0],
+         .applies_to = "meshes, glTF",
+         .help = option.help,
+         .set = [&option](Options& options,
+                          std::uint64_t value) { option.set(std::get<S>(options.schemes), value); },
+         .get = [&option](const Options& options) -> std::optional<std::uint64_t> {
+           return option.get(std::get<S>(options.schemes));
+         }});
+}
+
+const std::vector<OptionSpec>& table() {
+  static const std::vector<OptionSpec> whole = [] {
+    std::vector<OptionSpec> made = options_of_all();
+    for_each_scheme(AllSchemes(), [&]<class S>(const S&) { add_scheme_options<S>(made); });
+    for (OptionSpec& spec : options_of_kinds()) made.push_back(std::move(spec));
+    return made;
+  }();
+  return whole;
+}
+
+const std::vector<std::string_view>& names() {
+  static const std::vector<std::string_view> all = [] {
+    std::vector<std::string_view> made;
+    for (const OptionSpec& spec : table()) made.push_back(spec.name);
+    return made;
+  }();
+  return all;
+}
 
 Error refusal(ErrorCode code, const OptionSpec& spec, std::string_view got, const Path& where) {
   std::string message =
@@ -202,11 +234,11 @@ std::string description(const OptionSpec& spec) {
 
 }  // namespace
 
-std::span<const OptionSpec> option_table() { return kTable; }
-std::span<const std::string_view> option_names() { return kNames; }
+std::span<const OptionSpec> option_table() { return table(); }
+std::span<const std::string_view> option_names() { return names(); }
 
 const OptionSpec* find_option(std::string_view name) {
-  for (const OptionSpec& spec : kTable)
+  for (const OptionSpec& spec : table())
     if (spec.name == name) return &spec;
   return nullptr;
 }
@@ -234,7 +266,7 @@ Result<void> check_option(std::string_view name, std::span<const std::string_vie
 Result<void> set_option(Options& options, std::string_view name, const OptionValue& value,
                         const Path& where) {
   const OptionSpec* spec = find_option(name);
-  if (spec == nullptr) return unknown(name, kNames, where);
+  if (spec == nullptr) return unknown(name, names(), where);
   if (spec->kind == OptionKind::boolean && value.boolean) {
     spec->set(options, *value.boolean ? 1 : 0);
     return {};
@@ -254,7 +286,7 @@ Result<void> set_option(Options& options, std::string_view name, const OptionVal
 Result<void> set_parameter(Options& options, std::string_view name, std::string_view text) {
   const Path where = parameter(name);
   const OptionSpec* spec = find_option(name);
-  if (spec == nullptr) return unknown(name, kNames, where);
+  if (spec == nullptr) return unknown(name, names(), where);
   switch (spec->kind) {
     case OptionKind::boolean:
       if (text != "true" && text != "false" && text != "1" && text != "0")
@@ -294,7 +326,8 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
   return {};
 }
 
-Result<void> check_options(const Options& options, const Limits& limits, const QueryParameters& query) {
+Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query) {
+  const Options& options = request.options;
   if (options.level > limits.max_level)
     return Error{.code = ErrorCode::too_large,
                  .message = std::string("level is ") + std::to_string(options.level) +
@@ -302,11 +335,14 @@ Result<void> check_options(const Options& options, const Limits& limits, const Q
                  .where = blame("level", query),
                  .predicted = options.level,
                  .allowed = limits.max_level};
-  if (options.verify && options.loop_weights == LoopWeights::warren)
-    return Error{ErrorCode::unsupported,
-                 "verify compares with OpenSubdiv, which knows Loop's weights only: leave out verify or take "
-                 "loopWeights loop",
-                 blame("verify", query)};
+  if (!options.verify) return {};
+  for (const ControlMesh& mesh : request.meshes) {
+    const auto scheme = find_scheme(mesh.subdivision_scheme, options.schemes);
+    const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
+    if (!reason.empty())
+      return Error{ErrorCode::unsupported, "verify compares with OpenSubdiv, which " + std::string(reason),
+                   blame("verify", query)};
+  }
   return {};
 }
 
@@ -316,14 +352,14 @@ std::string effective_options(const RefineRequest& request) {
   options.format = answer_format(request);
   if (!request.surfaces.empty()) options.faces = answer_faces(request);
   nlohmann::ordered_json echo = nlohmann::ordered_json::object();
-  for (const OptionSpec& spec : kTable)
+  for (const OptionSpec& spec : table())
     if (const auto value = spec.get(options)) echo[std::string(spec.name)] = json_value(spec, *value);
   return echo.dump();
 }
 
 std::string openapi_parameters() {
   nlohmann::ordered_json parameters;
-  for (const OptionSpec& spec : kTable)
+  for (const OptionSpec& spec : table())
     parameters[std::string(spec.name)] = {{"name", spec.name},
                                           {"in", "query"},
                                           {"description", description(spec)},
@@ -333,7 +369,7 @@ std::string openapi_parameters() {
 
 std::string options_schema() {
   nlohmann::ordered_json properties;
-  for (const OptionSpec& spec : kTable) {
+  for (const OptionSpec& spec : table()) {
     nlohmann::ordered_json schema = value_schema(spec);
     schema["description"] = description(spec);
     properties[std::string(spec.name)] = schema;

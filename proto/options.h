@@ -1,8 +1,9 @@
 #pragma once
-// THE table of options. Query parameters, the body's `options`, the echo of effective options, the messages
+// THE table of options; those that a scheme has come from the list of schemes. Query parameters, the body's `options`, the echo of effective options, the messages
 // that list valid values and the parameters of openapi.json all come from it or are tested against it.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,8 +27,8 @@ struct OptionSpec {
   std::string_view help;
 
   // Values travel as numbers between here and Options: 0/1, the integer, the index of the word.
-  void (*set)(Options& options, std::uint64_t value) = nullptr;
-  std::optional<std::uint64_t> (*get)(const Options& options) = nullptr;  // empty: not set
+  std::function<void(Options& options, std::uint64_t value)> set;
+  std::function<std::optional<std::uint64_t>(const Options& options)> get;  // empty: not set
 };
 
 std::span<const OptionSpec> option_table();
@@ -59,9 +60,10 @@ Result<void> set_parameter(Options& options, std::string_view name, std::string_
 Result<void> set_parameters(Options& options, const QueryParameters& query,
                             std::span<const std::string_view> taken = option_names());
 
-// What single values cannot tell: the level against the server's limit, options that exclude each other.
+// What single values cannot tell: the level against the server's limit, options that exclude each other with
+// the schemes of the meshes.
 // `query` tells whether the body or the query is to blame.
-Result<void> check_options(const Options& options, const Limits& limits, const QueryParameters& query);
+Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query);
 
 // The options in effect for `request`, as a JSON object. What is not set and left to the meshes is left out;
 // the text is a valid `options` member of a request.

@@ -51,9 +51,10 @@ Result<void> set(SchemeChoice& choice, const SchemeParameter& parameter, std::st
   const std::string got = parameter.name + " is " + in_quotes(text);
   if (parameter.type == "word") {
     const auto word = std::ranges::find(parameter.words, text);
+    const std::vector<std::string_view> words(parameter.words.begin(), parameter.words.end());
     if (word == parameter.words.end())
-      return refusal(ErrorCode::bad_enum, got + "; it must be loop or warren", parameter.name);
-    choice.weights = static_cast<LoopWeights>(word - parameter.words.begin());
+      return refusal(ErrorCode::bad_enum, got + "; it must be " + either_of(words), parameter.name);
+    set_word(choice, parameter.name, static_cast<std::size_t>(word - parameter.words.begin()));
     return {};
   }
   if (parameter.type == "boolean") {

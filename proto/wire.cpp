@@ -30,7 +30,7 @@ bool needs_connectivity(const RefineRequest& request) {
 RefineOptions mesh_options(const RefineRequest& request) {
   const Options& options = request.options;
   return {.level = options.level,
-          .loop_weights = options.loop_weights,
+          .schemes = options.schemes,
           .crease_method = options.crease_method,
           .limit = options.limit,
           .normals = options.normals,

@@ -45,7 +45,7 @@ struct Options {
   bool normals = false;
   bool verify = false;
   bool triangulate = false;
-  LoopWeights loop_weights = LoopWeights::loop;
+  AllSchemes schemes = {};  // the options of every scheme that meshes may name
   CreaseMethod crease_method = CreaseMethod::uniform;
   Weld weld = Weld::exact;
   std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body

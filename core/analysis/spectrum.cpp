@@ -77,7 +77,7 @@ Result<EigenSystem> analyse(Spectrum& s, const Budget& budget) {
   return system;
 }
 
-// --- Loop -------------------------------------------------------------------------------------------------
+// --- Surfaces ---------------------------------------------------------------------------------------------
 
 Result<void> check_valence(Index valence, Index least) {
   if (valence >= least && valence <= kMaxSpectrumValence) return {};
@@ -88,9 +88,9 @@ Result<void> check_valence(Index valence, Index least) {
 }
 
 // Labels, and room for the matrix.
-Spectrum ring_of(Index n) {
+Spectrum ring_of(std::string_view scheme, Index n) {
   Spectrum s;
-  s.scheme = Loop::name;
+  s.scheme = scheme;
   s.valence = n;
   s.labels = {"v"};
   for (Index k = 0; k < n; ++k) s.labels.push_back("e" + std::to_string(k));
@@ -160,12 +160,11 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
   return unexpected("the border rule has no tangent across the border");
 }
 
-}  // namespace
-
-Result<Spectrum> loop_spectrum(const Loop& scheme, Index valence, const Budget& budget) {
+template <class S>
+Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 3); !checked) return checked.error();
   const Index n = valence;
-  Spectrum s = ring_of(n);
+  Spectrum s = ring_of(S::name, n);
   const std::vector<float> smooth(n, 0.0f);
   set_vertex_row(s, scheme.vertex_mask({n, CreaseMethod::uniform, 0, 0, smooth, smooth}));
   for (Index k = 0; k < n; ++k)
@@ -176,10 +175,11 @@ Result<Spectrum> loop_spectrum(const Loop& scheme, Index valence, const Budget& 
   return s;
 }
 
-Result<Spectrum> loop_border_spectrum(const Loop& scheme, Index valence, const Budget& budget) {
+template <class S>
+Result<Spectrum> border_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 2); !checked) return checked.error();
   const Index n = valence, last = n - 1;
-  Spectrum s = ring_of(n);
+  Spectrum s = ring_of(S::name, n);
   std::vector<float> sharp(n, 0.0f);
   sharp[0] = sharp[last] = kInfiniteSharpness;
   set_vertex_row(s, scheme.vertex_mask({last, CreaseMethod::uniform, 0, 0, sharp, sharp}));
@@ -192,6 +192,16 @@ Result<Spectrum> loop_border_spectrum(const Loop& scheme, Index valence, const B
   if (auto fault = add_tangent_along(s, budget)) return *fault;
   if (auto fault = add_tangent_across(s, *system)) return *fault;
   return s;
+}
+
+}  // namespace
+
+Result<Spectrum> smooth_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget) {
+  return std::visit([&](const auto& one) { return smooth_spectrum_of(one, valence, budget); }, scheme);
+}
+
+Result<Spectrum> border_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget) {
+  return std::visit([&](const auto& one) { return border_spectrum_of(one, valence, budget); }, scheme);
 }
 
 // --- Curves -----------------------------------------------------------------------------------------------
@@ -277,21 +287,42 @@ Result<Spectrum> four_point_spectrum(double tension, const Budget& budget) {
 
 // --- By name ----------------------------------------------------------------------------------------------
 
+namespace {
+
+template <class S>
+SchemeInfo info_of() {
+  SchemeInfo info{std::string(S::name), "surface", {}};
+  for (const SchemeOption<S>& option : S::options())
+    info.parameters.push_back({std::string(option.short_name), "word", 0, 0, 0,
+                               std::vector<std::string>(option.words.begin(), option.words.end())});
+  info.parameters.push_back({"valence", "integer", 3, kMaxSpectrumValence, 6, {}});
+  info.parameters.push_back({"border", "boolean", 0, 1, 0, {}});
+  return info;
+}
+
+}  // namespace
+
 std::vector<SchemeInfo> list_of_schemes() {
-  return {{std::string(Loop::name),
-           "surface",
-           {{"weights", "word", 0, 0, 0, {"loop", "warren"}},
-            {"valence", "integer", 3, kMaxSpectrumValence, 6, {}},
-            {"border", "boolean", 0, 1, 0, {}}}},
-          {std::string(kLaneRiesenfeld), "curve", {{"degree", "integer", 1, kMaxSpectrumDegree, 3, {}}}},
-          {std::string(kFourPoint), "curve", {{"tension", "number", 0, 1.0 / 16, 1.0 / 16, {}}}}};
+  std::vector<SchemeInfo> list;
+  for_each_scheme(AllSchemes(), [&]<class S>(const S&) { list.push_back(info_of<S>()); });
+  list.push_back(
+      {std::string(kLaneRiesenfeld), "curve", {{"degree", "integer", 1, kMaxSpectrumDegree, 3, {}}}});
+  list.push_back({std::string(kFourPoint), "curve", {{"tension", "number", 0, 1.0 / 16, 1.0 / 16, {}}}});
+  return list;
+}
+
+void set_word(SchemeChoice& choice, std::string_view parameter, std::size_t word) {
+  for_each_scheme(choice.schemes, [&]<class S>(S& scheme) {
+    if (S::name != choice.name) return;
+    for (const SchemeOption<S>& option : S::options())
+      if (option.short_name == parameter) option.set(scheme, word);
+  });
 }
 
 Result<Spectrum> spectrum(const SchemeChoice& choice, const Budget& budget) {
-  const Loop loop{choice.weights};
-  if (choice.name == Loop::name)
-    return choice.border ? loop_border_spectrum(loop, choice.valence, budget)
-                         : loop_spectrum(loop, choice.valence, budget);
+  if (const auto scheme = find_scheme(choice.name, choice.schemes))
+    return choice.border ? border_spectrum(*scheme, choice.valence, budget)
+                         : smooth_spectrum(*scheme, choice.valence, budget);
   if (choice.name == kLaneRiesenfeld) return lane_riesenfeld_spectrum(choice.degree, budget);
   if (choice.name == kFourPoint) return four_point_spectrum(choice.tension, budget);
   std::string known;

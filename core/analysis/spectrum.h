@@ -5,12 +5,13 @@
 //   [DooSabin78; BallStorry88; Reif95]
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/analysis/eigen.h"
 #include "core/base/budget.h"
 #include "core/base/result.h"
-#include "core/schemes/loop.h"
+#include "core/schemes/all.h"
 
 namespace subdivd {
 
@@ -45,15 +46,16 @@ struct Spectrum {
 };
 
 // The one-ring of a smooth inner vertex: rows v, e0, ..., e(n-1), counter-clockwise. Valence 3 to
-// kMaxSpectrumValence (out_of_range at {"valence"}). Farther rings would add eigenvalues 1/8 and 1/16 only,
-// which are subsubdominant at valence 3 alone: there the true one is 1/8, not this ring's 1/16.
-Result<Spectrum> loop_spectrum(const Loop& scheme, Index valence, const Budget& budget);
+// kMaxSpectrumValence (out_of_range at {"valence"}). With Loop's masks farther rings would add eigenvalues
+// 1/8 and 1/16 only, which are subsubdominant at valence 3 alone: there the true one is 1/8, not this ring's
+// 1/16.
+Result<Spectrum> smooth_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget);
 
 // The same for a border vertex of 2 to kMaxSpectrumValence edges, e0 and e(n-1) on the border, which is also
-// each side of a crease. Tangents belong to 1/2 (along) and to 3/8 + cos(pi / (n-1)) / 4, or 1/4 at valence 2
+// each side of a crease. Loop's tangents belong to 1/2 (along) and to 3/8 + cos(pi / (n-1)) / 4, or 1/4 at valence 2
 // (across). From valence 8 on 3/8 + cos(2 pi / (n-1)) / 4 is above 1/2: the two are not the two largest below
 // 1 any more, which is a known weakness of the rule.   [Biermann00]
-Result<Spectrum> loop_border_spectrum(const Loop& scheme, Index valence, const Budget& budget);
+Result<Spectrum> border_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget);
 
 // B-splines of degree p, 1 to kMaxSpectrumDegree (out_of_range at {"degree"}), around a control point (p odd)
 // or around the middle of a span, between c[0] and c[1] (p even): p + 2 points. Masks binom(p+1, i) / 2^p;
@@ -87,12 +89,15 @@ std::vector<SchemeInfo> list_of_schemes();
 // A scheme of the list and its parameters; those it does not have are not looked at.
 struct SchemeChoice {
   std::string name;
-  LoopWeights weights = LoopWeights::loop;
+  AllSchemes schemes = {};  // the options of surfaces' schemes
   Index valence = 6;
   bool border = false;
   Index degree = 3;
   double tension = 1.0 / 16;
 };
+
+// Sets a parameter of type "word" to the word of that number.
+void set_word(SchemeChoice& choice, std::string_view parameter, std::size_t word);
 
 // The spectrum of that scheme. Fails as its own function does, and with bad_enum at {"scheme"} for a name
 // that is not in the list.

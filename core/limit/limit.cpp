@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/mesh/positions.h"
-#include "core/schemes/loop.h"
+#include "core/schemes/all.h"
 
 namespace subdivd {
 namespace {
@@ -357,8 +357,11 @@ template struct Ring<float>;
 template struct Ring<double>;
 template bool set_normal(Frame<float>&);
 template bool set_normal(Frame<double>&);
-template class LimitRing<Loop, float>;
-template class LimitRing<Loop, double>;
+#define SUBDIVD_INSTANTIATE(S)        \
+  template class LimitRing<S, float>; \
+  template class LimitRing<S, double>;
+SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+#undef SUBDIVD_INSTANTIATE
 template void normalize<float>(float[3]);
 template void normalize<double>(double[3]);
 template class FrameMean<float>;

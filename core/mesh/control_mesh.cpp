@@ -112,7 +112,7 @@ Result<void> check_face_counts(const ControlMesh& mesh, const Pace& pace) {
     if (mesh.face_vertex_counts[f] != 3)
       return fault(ErrorCode::not_a_triangle,
                    "face " + number(f) + " has " + number(mesh.face_vertex_counts[f]) +
-                       " vertices; Loop takes triangles only: set triangulate to true to split larger faces",
+                       " vertices; only triangles are taken: set triangulate to true to split larger faces",
                    at("faceVertexCounts", f));
   }
   return {};

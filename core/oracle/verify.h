@@ -24,8 +24,8 @@ std::string oracle_name();
 // where semi-sharpness is left (Far takes it for infinite), at darts (its masks do not know the crease), and
 // for normals where the surface has several sides or Far's tangent is not the surface's: see compare.cpp.
 // Tolerances of max_relative: 1e-12 (double), 2e-6 (float); normals 0.01 degrees (double), 0.5 (float);
-// limits of face-varying primvars 1e-7 (Far's masks for them are single precision). options.loop_weights must
-// be `loop` (Far knows no other): `unsupported` otherwise.
+// limits of face-varying primvars 1e-7 (Far's masks for them are single precision). `unsupported`: Far
+// does not know the mesh's scheme, or not with its options.
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
                           const Budget& budget);

@@ -165,7 +165,10 @@ void BaseEdges<Scheme, Real>::limit(Index level, const Real* values, const Evalu
     limit_semi_sharp(level, static_cast<std::size_t>(at - edges.begin()), values, out);
 }
 
-template class BaseEdges<Loop, float>;
-template class BaseEdges<Loop, double>;
+#define SUBDIVD_INSTANTIATE(S)        \
+  template class BaseEdges<S, float>; \
+  template class BaseEdges<S, double>;
+SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+#undef SUBDIVD_INSTANTIATE
 
 }  // namespace subdivd

@@ -228,8 +228,11 @@ void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Ev
   for_each_in(net_.unsettled_vertices(level), begin, end, by_ring);
 }
 
-template class BaseVertices<Loop, float>;
-template class BaseVertices<Loop, double>;
+#define SUBDIVD_INSTANTIATE(S)           \
+  template class BaseVertices<S, float>; \
+  template class BaseVertices<S, double>;
+SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+#undef SUBDIVD_INSTANTIATE
 template void write_frames<float>(const FrameMean<float>&, const Evaluated<float>&, Count);
 template void write_frames<double>(const FrameMean<double>&, const Evaluated<double>&, Count);
 

@@ -5,10 +5,18 @@
 #include <utility>
 
 #include "core/base/pace.h"
-#include "core/schemes/all.h"
 
 namespace subdivd {
 namespace {
+
+Error no_such_scheme(const std::string& name) {
+  std::string known;
+  for (const std::string_view one : kSchemeNames)
+    known += (known.empty() ? "\"" : ", \"") + std::string(one) + '"';
+  return Error{ErrorCode::bad_enum,
+               '"' + name + "\" is no scheme of this version; valid: " + known,
+               {"subdivisionScheme"}};
+}
 
 bool is_channel(const Primvar& primvar) { return primvar.interpolation == Interpolation::face_varying; }
 
@@ -67,13 +75,8 @@ Count plan_bytes(const ControlMesh& mesh, const PlanOptions& options) {
 }
 
 Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, const Budget& budget) {
-  std::optional<AnyScheme> scheme;
-  visit_scheme(mesh.subdivision_scheme,
-               [&]<class S>(std::type_identity<S>) { scheme = S{options.loop_weights}; });
-  if (!scheme)
-    return Error{ErrorCode::bad_enum,
-                 "\"" + mesh.subdivision_scheme + "\" is no scheme of this version; valid: \"loop\"",
-                 {"subdivisionScheme"}};
+  const std::optional<AnyScheme> scheme = find_scheme(mesh.subdivision_scheme, options.schemes);
+  if (!scheme) return no_such_scheme(mesh.subdivision_scheme);
   if (auto allowed = check_level(options.max_level); !allowed) return std::move(allowed).error();
   return stoppable(budget, [&](const Pace& pace) -> Result<Plan> {
     Plan plan;

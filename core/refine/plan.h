@@ -15,12 +15,12 @@
 #include "core/mesh/control_mesh.h"
 #include "core/refine/net.h"
 #include "core/refine/split.h"
-#include "core/schemes/loop.h"
+#include "core/schemes/all.h"
 
 namespace subdivd {
 
 struct PlanOptions {
-  LoopWeights loop_weights = LoopWeights::loop;
+  AllSchemes schemes = {};  // the options of the one that the mesh names
   CreaseMethod crease_method = CreaseMethod::uniform;
   Index max_level = kMaxLevel;  // the plan serves levels 0 to this
 };

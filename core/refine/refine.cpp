@@ -218,7 +218,7 @@ class Job {
 }  // namespace
 
 PlanOptions plan_options(const RefineOptions& options) {
-  return {options.loop_weights, options.crease_method, options.level};
+  return {options.schemes, options.crease_method, options.level};
 }
 
 template <class Real>

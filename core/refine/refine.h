@@ -11,13 +11,13 @@
 #include "core/refine/plan.h"
 #include "core/refine/refined_mesh.h"
 #include "core/refine/split.h"
-#include "core/schemes/loop.h"
+#include "core/schemes/all.h"
 
 namespace subdivd {
 
 struct RefineOptions {
-  Index level = 2;  // 0..kMaxLevel
-  LoopWeights loop_weights = LoopWeights::loop;
+  Index level = 2;          // 0..kMaxLevel
+  AllSchemes schemes = {};  // the options of the one that the mesh names
   CreaseMethod crease_method = CreaseMethod::uniform;
   bool limit = false;        // fill limit_points and limit_values: where refining for ever would lead
   bool tangents = false;     // fill tangents_u, tangents_v

@@ -162,7 +162,7 @@ template <class Real>
 Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& options,
                                  const Budget& budget) {
   if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
-  const auto plan = Plan::build(mesh, {options.loop_weights, options.crease_method, 0}, budget);
+  const auto plan = Plan::build(mesh, {options.schemes, options.crease_method, 0}, budget);
   if (!plan) return plan.error();
   return predict_size<Real>(mesh, *plan, options, budget);
 }

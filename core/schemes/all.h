@@ -1,6 +1,10 @@
 #pragma once
-// THE list of schemes, and the only dispatch by name.
+// THE list of schemes, and the only dispatch by name. A scheme is one file and one word here: look-up by name,
+// its options on the wire, its spectrum, the engine that runs it and the property tests follow from the list.
 
+#include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -8,25 +12,55 @@
 
 #include "core/schemes/loop.h"
 
+// What stands once for every scheme (explicit instantiations) is made by this.
+#define SUBDIVD_FOR_EACH_SCHEME(X) X(Loop)
+
 namespace subdivd {
 
-using AllSchemes = std::tuple<Loop>;
-
-// One scheme of the list, with its options.
-template <class List>
-struct VariantOf;
-template <class... S>
-struct VariantOf<std::tuple<S...>> {
-  using type = std::variant<S...>;
+namespace detail {
+template <class First, class... Rest>
+struct Schemes {
+  using Tuple = std::tuple<Rest...>;
+  using Variant = std::variant<Rest...>;
 };
-using AnyScheme = VariantOf<AllSchemes>::type;
+#define SUBDIVD_AND_SCHEME(S) , S
+using Listed = Schemes<void SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_AND_SCHEME)>;
+#undef SUBDIVD_AND_SCHEME
+}  // namespace detail
 
-// Calls f(std::type_identity<S>{}) for the scheme of that name; false when there is none.
-template <class F>
-bool visit_scheme(std::string_view name, F&& f) {
-  return [&]<class... S>(std::type_identity<std::tuple<S...>>) {
-    return ((S::name == name ? (f(std::type_identity<S>{}), true) : false) || ...);
-  }(std::type_identity<AllSchemes>{});
+// One of each: what a request sets of every scheme's options, whichever of them its meshes name.
+using AllSchemes = detail::Listed::Tuple;
+// One scheme of the list, with its options.
+using AnyScheme = detail::Listed::Variant;
+
+inline constexpr std::size_t kSchemeCount = std::tuple_size_v<AllSchemes>;
+
+// Calls f(scheme) for every scheme of `schemes`, in the order of the list.
+template <class Schemes, class F>
+constexpr void for_each_scheme(Schemes&& schemes, F&& f) {
+  std::apply([&](auto&... scheme) { (f(scheme), ...); }, schemes);
+}
+
+inline constexpr auto kSchemeNames = [] {
+  std::array<std::string_view, kSchemeCount> names;
+  std::size_t k = 0;
+  for_each_scheme(AllSchemes(), [&]<class S>(const S&) { names[k++] = S::name; });
+  return names;
+}();
+
+// The scheme of that name with the options that it has in `schemes`; nothing when there is none.
+inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSchemes& schemes = {}) {
+  std::optional<AnyScheme> found;
+  for_each_scheme(schemes, [&]<class S>(const S& scheme) {
+    if (S::name == name) found = scheme;
+  });
+  return found;
+}
+
+// Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and ends
+// with what would be right. Empty: it can.
+inline std::string_view beyond_opensubdiv(const AnyScheme& scheme) {
+  return std::visit([](const auto& one) { return one.beyond_opensubdiv(); }, scheme);
 }
 
 }  // namespace subdivd

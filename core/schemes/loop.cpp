@@ -35,6 +35,25 @@ double sum_of(const RingMask& mask) {
 
 }  // namespace
 
+std::span<const SchemeOption<Loop>> Loop::options() {
+  static constexpr std::array<std::string_view, 2> kWords = {"loop", "warren"};
+  static constexpr std::array kOptions = {SchemeOption<Loop>{
+      .name = "loopWeights",
+      .short_name = "weights",
+      .words = kWords,
+      .help = "Weights of the smooth vertex point: Loop 1987 or Warren 1995. They agree at valences 3 and 6 "
+              "only.",
+      .set = [](Loop& loop, std::size_t word) { loop.weights = static_cast<LoopWeights>(word); },
+      .get = [](const Loop& loop) { return static_cast<std::size_t>(loop.weights); }}};
+  return kOptions;
+}
+
+std::string_view Loop::beyond_opensubdiv() const {
+  return weights == LoopWeights::loop
+             ? ""
+             : "knows Loop's weights only: leave out verify or take loopWeights loop";
+}
+
 double Loop::beta(Index n) const {
   if (weights == LoopWeights::warren) return n == 3 ? 3.0 / 16 : 3.0 / (8.0 * n);
   if (n == 6) return 1.0 / 16;  // what the formula gives, without its rounding

@@ -6,6 +6,7 @@
 // [DeRose98]    T. DeRose, M. Kass, T. Truong, Subdivision Surfaces in Character Animation, SIGGRAPH 98
 // [Biermann00]  H. Biermann, A. Levin, D. Zorin, Piecewise Smooth Subdivision Surfaces with Normal Control
 
+#include <span>
 #include <string_view>
 
 #include "core/base/pace.h"
@@ -22,6 +23,10 @@ struct Loop {
   static constexpr Split split = Split::triangles;
 
   LoopWeights weights = LoopWeights::loop;
+
+  static std::span<const SchemeOption<Loop>> options();
+  // See beyond_opensubdiv() of all.h.
+  std::string_view beyond_opensubdiv() const;
 
   // Weight of each neighbour in the smooth vertex point of valence n >= 1.
   //   Loop:   beta(n) = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n        [Loop87]

@@ -74,10 +74,9 @@ bool MeshReader::face_vertex_indices() {
 }
 
 bool MeshReader::subdivision_scheme() {
-  static constexpr std::array<std::string_view, 1> kSchemes = {"loop"};
   std::size_t word = 0;
-  if (!cursor_.read_word(kSchemes, word)) return false;
-  result_.mesh.subdivision_scheme = kSchemes[word];
+  if (!cursor_.read_word(kSchemeNames, word)) return false;
+  result_.mesh.subdivision_scheme = kSchemeNames[word];
   return true;
 }
 

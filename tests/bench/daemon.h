@@ -24,6 +24,24 @@ class Daemon {
   int port_ = 0;
 };
 
+// A process that knows no HTTP: it reads a request of `in` bytes and sends `out` bytes that it has, again and
+// again. What the same bytes take on loopback without any work.
+class Echo {
+ public:
+  Echo(std::size_t in, std::size_t out);
+  ~Echo();
+  Echo(const Echo&) = delete;
+  Echo& operator=(const Echo&) = delete;
+  // Sends and receives as Client does; false when the other side has gone.
+  bool exchange();
+
+ private:
+  std::size_t in_, out_;
+  std::vector<char> buffer_;
+  pid_t pid_ = -1;
+  int fd_ = -1;
+};
+
 // One connection, kept open.
 class Client {
  public:

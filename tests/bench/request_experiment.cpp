@@ -54,6 +54,7 @@ double time_request(const Asset& asset, Index level, const Pace& pace, Results& 
     if (client.exchange(request) != answer) return {};
     return {{quantity, stopwatch.lap()}};
   };
+  Echo echo(request.size(), answer);
   Contest contest;
   contest.enter("ours", [&] { return exchange(to_alone, "request"); });
   contest.enter("ours", [&] { return exchange(to_threaded, "request_threads"); });
@@ -69,6 +70,11 @@ double time_request(const Asset& asset, Index level, const Pace& pace, Results& 
     std::memcpy(to.data(), from.data(), answer);
     const double ms = stopwatch.lap();
     return {{"request", ms}, {"request_threads", ms}, {"in_process", ms}};
+  });
+  contest.enter("loopback", [&]() -> Laps {
+    Stopwatch stopwatch;
+    if (!echo.exchange()) return {};
+    return {{"request", stopwatch.lap()}};
   });
   return contest.hold(pace, asset.name + ".L" + std::to_string(level), "request", results);
 }

@@ -53,8 +53,8 @@ constexpr std::array kRatios = {
     Ratio{"in_process_vs_warm", "in_process", "base", true},
 };
 
-constexpr std::array<std::string_view, 7> kContestants = {"ours",   "Far",    "CGAL", "OpenMesh",
-                                                          "memset", "memcpy", "base"};
+constexpr std::array<std::string_view, 8> kContestants = {"ours",   "Far",    "CGAL", "OpenMesh",
+                                                          "memset", "memcpy", "base", "loopback"};
 constexpr std::array<std::string_view, 5> kRivals = {"Far", "CGAL", "OpenMesh", "memset", "base"};
 
 // Phases are cut differently in every library: only what all of them do as a whole is compared.

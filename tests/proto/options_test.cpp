@@ -40,7 +40,7 @@ TEST(options, a_query_sets_every_option) {
                                       {"format", "gltf"}});
   EXPECT_EQ(options.level, 4u);
   EXPECT_TRUE(options.limit && options.normals && options.verify && options.triangulate);
-  EXPECT_EQ(options.loop_weights, LoopWeights::warren);
+  EXPECT_EQ(std::get<Loop>(options.schemes).weights, LoopWeights::warren);
   EXPECT_EQ(options.interpolate_boundary, BoundaryInterpolation::edge_only);
   EXPECT_EQ(options.face_varying_linear_interpolation, FaceVaryingInterpolation::boundaries);
   EXPECT_EQ(options.crease_method, CreaseMethod::chaikin);

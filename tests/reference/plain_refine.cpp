@@ -327,7 +327,11 @@ class Job {
 
 template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options) {
-  return Job<Loop, Real>(Loop{options.loop_weights}, mesh, options, Budget{}).run();
+  return std::visit(
+      [&](const auto& scheme) {
+        return Job<std::remove_cvref_t<decltype(scheme)>, Real>(scheme, mesh, options, Budget{}).run();
+      },
+      *find_scheme(mesh.subdivision_scheme, options.schemes));
 }
 
 template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const RefineOptions&);

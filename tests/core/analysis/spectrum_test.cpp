@@ -16,8 +16,10 @@ Spectrum value_of(Result<Spectrum> result) {
   return result.ok() ? std::move(result).value() : Spectrum{};
 }
 
-Spectrum loop_at(LoopWeights weights, Index n) { return value_of(loop_spectrum(Loop{weights}, n, Budget{})); }
-Spectrum border_at(Index n) { return value_of(loop_border_spectrum(Loop{}, n, Budget{})); }
+Spectrum loop_at(LoopWeights weights, Index n) {
+  return value_of(smooth_spectrum(Loop{weights}, n, Budget{}));
+}
+Spectrum border_at(Index n) { return value_of(border_spectrum(Loop{}, n, Budget{})); }
 Spectrum bspline(Index degree) { return value_of(lane_riesenfeld_spectrum(degree, Budget{})); }
 Spectrum four_point(double tension) { return value_of(four_point_spectrum(tension, Budget{})); }
 
@@ -272,12 +274,12 @@ TEST(FourPointSpectrum, of_one_sixteenth_has_a_jordan_block) {
 TEST(Spectrum, refuses_parameters_out_of_range_at_their_place) {
   const Budget budget;
   for (const Index n : {0u, 2u, 129u, 0xffffffffu}) {
-    const auto refused = loop_spectrum(Loop{}, n, budget);
+    const auto refused = smooth_spectrum(Loop{}, n, budget);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::out_of_range);
     EXPECT_EQ(refused.error().where, (Path{"valence"}));
   }
-  EXPECT_EQ(loop_border_spectrum(Loop{}, 1, budget).error().code, ErrorCode::out_of_range);
+  EXPECT_EQ(border_spectrum(Loop{}, 1, budget).error().code, ErrorCode::out_of_range);
   for (const Index p : {0u, 16u, 0xffffffffu})
     EXPECT_EQ(lane_riesenfeld_spectrum(p, budget).error().where, (Path{"degree"}));
   EXPECT_EQ(four_point_spectrum(NAN, budget).error().code, ErrorCode::not_finite);
@@ -298,7 +300,7 @@ TEST(Spectrum, of_every_scheme_of_the_list_exists_at_the_ends_of_its_parameters)
         if (parameter.name == "degree") choice.degree = static_cast<Index>(value);
         if (parameter.name == "tension") choice.tension = value;
         if (parameter.name == "border") choice.border = most;
-        if (parameter.name == "weights") choice.weights = most ? LoopWeights::warren : LoopWeights::loop;
+        if (parameter.type == "word") set_word(choice, parameter.name, most ? parameter.words.size() - 1 : 0);
         EXPECT_TRUE(spectrum(choice, Budget{}).ok()) << scheme.name << " " << parameter.name;
       }
   }
@@ -306,7 +308,7 @@ TEST(Spectrum, of_every_scheme_of_the_list_exists_at_the_ends_of_its_parameters)
 
 TEST(Spectrum, by_name_is_that_of_the_function) {
   const auto named =
-      value_of(spectrum({.name = "loop", .weights = LoopWeights::warren, .valence = 5}, Budget{}));
+      value_of(spectrum({.name = "loop", .schemes = {Loop{LoopWeights::warren}}, .valence = 5}, Budget{}));
   EXPECT_EQ(named.matrix, loop_at(LoopWeights::warren, 5).matrix);
   EXPECT_NE(named.matrix, loop_at(LoopWeights::loop, 5).matrix);
   EXPECT_EQ(value_of(spectrum({.name = "loop", .valence = 5, .border = true}, Budget{})).matrix,
@@ -317,7 +319,7 @@ TEST(Spectrum, stops_when_nobody_waits_any_more) {
   const std::atomic<bool> gone = true;
   Budget budget;
   budget.cancelled = &gone;
-  EXPECT_EQ(loop_spectrum(Loop{}, 6, budget).error().code, ErrorCode::cancelled);
+  EXPECT_EQ(smooth_spectrum(Loop{}, 6, budget).error().code, ErrorCode::cancelled);
 }
 
 }  // namespace

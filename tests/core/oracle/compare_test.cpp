@@ -163,7 +163,7 @@ TEST(Compare, finds_other_loop_weights_at_valence_5) {
   const ControlMesh mesh = shapes::icosahedron();
   auto both = both_of(mesh);
   RefineOptions warren = everything(kLevel);
-  warren.loop_weights = LoopWeights::warren;
+  std::get<Loop>(warren.schemes).weights = LoopWeights::warren;
   both.ours = std::move(*refine<double>(mesh, warren, Budget{}));
   const LevelReport report = both.compared();
   EXPECT_EQ(missed(report), "points limitPoints normals");
@@ -176,7 +176,7 @@ TEST(Compare, cannot_tell_loop_weights_apart_at_valence_6) {
   const ControlMesh mesh = shapes::torus(4, 5);
   auto both = both_of(mesh);
   RefineOptions warren = everything(kLevel);
-  warren.loop_weights = LoopWeights::warren;
+  std::get<Loop>(warren.schemes).weights = LoopWeights::warren;
   both.ours = std::move(*refine<double>(mesh, warren, Budget{}));
   EXPECT_EQ(missed(both.compared()), "");
 }

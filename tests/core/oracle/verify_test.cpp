@@ -123,7 +123,7 @@ TEST(Verify, names_what_was_left_out_once) {
 
 TEST(Verify, refuses_weights_that_far_does_not_know) {
   RefineOptions options = everything(1);
-  options.loop_weights = LoopWeights::warren;
+  std::get<Loop>(options.schemes).weights = LoopWeights::warren;
   const auto report = verify<double>(shapes::icosahedron(), options, Budget{});
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().code, ErrorCode::unsupported);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "core/schemes/all.h"
 
@@ -77,10 +79,33 @@ TEST(LoopLimit, regular_masks_are_those_of_the_box_spline) {
 }
 
 TEST(AllSchemes, are_found_by_name_and_no_other_is) {
-  bool found = false;
-  EXPECT_TRUE(visit_scheme("loop", [&]<class S>(std::type_identity<S>) { found = std::is_same_v<S, Loop>; }));
-  EXPECT_TRUE(found);
-  EXPECT_FALSE(visit_scheme("catmullClark", [](auto) { FAIL(); }));
+  const auto found = find_scheme("loop", {Loop{LoopWeights::warren}});
+  ASSERT_TRUE(found.has_value());
+  ASSERT_TRUE(std::holds_alternative<Loop>(*found));
+  EXPECT_EQ(std::get<Loop>(*found).weights, LoopWeights::warren);
+  EXPECT_FALSE(find_scheme("catmullClark").has_value());
+  EXPECT_FALSE(find_scheme("").has_value());
+}
+
+TEST(AllSchemes, options_have_names_of_their_own_and_take_their_words) {
+  std::set<std::string_view> names;
+  for_each_scheme(AllSchemes(), [&]<class S>(const S&) {
+    EXPECT_TRUE(names.insert(S::name).second) << S::name;
+    for (const SchemeOption<S>& option : S::options()) {
+      EXPECT_TRUE(names.insert(option.name).second) << option.name;
+      EXPECT_EQ(option.get(S{}), 0u) << option.name << ": the first word is the standard";
+      for (std::size_t word = 0; word < option.words.size(); ++word) {
+        S scheme;
+        option.set(scheme, word);
+        EXPECT_EQ(option.get(scheme), word) << option.name;
+      }
+    }
+  });
+}
+
+TEST(AllSchemes, opensubdiv_knows_loops_own_weights_only) {
+  EXPECT_EQ(beyond_opensubdiv(Loop{}), "");
+  EXPECT_NE(beyond_opensubdiv(Loop{LoopWeights::warren}), "");
 }
 
 }  // namespace

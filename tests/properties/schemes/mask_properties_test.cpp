@@ -24,8 +24,13 @@ struct AsTypes<std::tuple<S...>> {
 template <class S>
 class MaskProperties : public ::testing::Test {
  protected:
-  // Every variant of the scheme.
-  std::vector<S> variants() const { return {S{LoopWeights::loop}, S{LoopWeights::warren}}; }
+  // The scheme with each word of each of its options.
+  std::vector<S> variants() const {
+    std::vector<S> all = {S{}};
+    for (const SchemeOption<S>& option : S::options())
+      for (std::size_t word = 1; word < option.words.size(); ++word) option.set(all.emplace_back(), word);
+    return all;
+  }
 };
 TYPED_TEST_SUITE(MaskProperties, AsTypes<AllSchemes>::type);
 

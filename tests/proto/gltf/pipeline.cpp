@@ -29,7 +29,7 @@ std::string to_pointer(const Path& path) {
 
 Result<Outcome> answer(RefineRequest request) {
   RefineOptions options{.level = request.options.level,
-                        .loop_weights = request.options.loop_weights,
+                        .schemes = request.options.schemes,
                         .crease_method = request.options.crease_method,
                         .limit = request.options.limit,
                         .normals = request.options.normals};
