@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/refine/split.h"
+#include "core/lattice/split.h"
 #include "core/schemes/all.h"
 #include "proto/client_text.h"
 #include "proto/suggest.h"

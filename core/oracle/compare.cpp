@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "core/lattice/split.h"
 #include "core/oracle/correspondence.h"
 #include "core/oracle/deviation_meter.h"
 #include "core/oracle/vectors.h"
-#include "core/refine/split.h"
 
 namespace subdivd::oracle {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "core/lattice/split.h"
 #include "core/oracle/compare.h"
 #include "core/oracle/deviation_meter.h"
-#include "core/refine/split.h"
 
 namespace subdivd::oracle {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/lattice/split.h"
 #include "core/oracle/compare.h"
 #include "core/oracle/deviation_meter.h"
 #include "core/oracle/vectors.h"
-#include "core/refine/split.h"
 
 namespace subdivd::oracle {
 namespace {

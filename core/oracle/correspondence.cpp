@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/refine/split.h"
+#include "core/lattice/split.h"
 
 namespace subdivd::oracle {
 namespace {
@@ -15,7 +15,7 @@ class VertexOfPlace {
  public:
   VertexOfPlace(Index level, Count base_faces, Count base_points)
       : n_(segments(level)),
-        per_face_((n_ + 1) * (n_ + 2) / 2),
+        per_face_(face_points(n_)),
         faces_(base_faces * per_face_),
         points_(base_points) {}
 
@@ -25,7 +25,7 @@ class VertexOfPlace {
     if (place.face == kNoIndex) return place.i < points_.size() ? &points_[place.i] : nullptr;
     const Count i = place.i, j = place.j;
     if (i + j > n_) return nullptr;
-    const Count slot = place.face * per_face_ + j * (n_ + 1) - (j * j - j) / 2 + i;  // rows of n + 1, n, ...
+    const Count slot = place.face * per_face_ + face_point_index(n_, i, j);
     return slot < faces_.size() ? &faces_[slot] : nullptr;
   }
   void clear(const Pace& pace) {
@@ -90,7 +90,7 @@ template <class Real>
 std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<Real>& far, const Pace& pace) {
   const Index base_faces = base_face_count(far, pace);
   std::vector<Index> blocks(base_faces, kNoIndex);
-  const Count size = segments(ours.level) * segments(ours.level);
+  const Count size = triangles_per_face(ours.level);
   const std::span<const Index> faces = ours.triangle_faces;
   for (Count begin = 0; begin < faces.size();) {
     Count end = begin;
@@ -100,19 +100,6 @@ std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<R
     begin = end;
   }
   return blocks;
-}
-
-// Number of the triangle with these three corners within its face's block.
-Count number_in_block(Count n, std::span<const GridPoint> corners) {
-  Count i = n, j = n, total = 0;
-  for (const GridPoint& corner : corners) {
-    i = std::min<Count>(i, corner.i);
-    j = std::min<Count>(j, corner.j);
-    total += corner.i + corner.j;
-  }
-  // upright: (i,j) (i+1,j) (i,j+1)   inverted: (i+1,j) (i+1,j+1) (i,j+1)
-  const bool inverted = total == 3 * (i + j) + 4;
-  return upright_index(n, i, j) + (inverted ? 1 : 0);
 }
 
 // The rotation r for which our corner (k + r) mod 3 is Far's corner k; 3 when there is none.
@@ -143,7 +130,7 @@ bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Cor
     ++visible;
     const Index block = blocks[far.base_faces[f]];
     if (block == kNoIndex) continue;
-    const Count t = block + number_in_block(n, std::span(far.corners).subspan(3 * f, 3));
+    const Count t = block + triangle_index(n, std::span(far.corners).subspan(3 * f).template first<3>());
     if (t >= triangles || taken[t] != 0 || 3 * t + 3 > ours.triangles.size()) continue;
     std::array<Index, 3> corners{};
     for (Count k = 0; k < 3; ++k) corners[k] = result.vertices[far.faces[3 * f + k]];

@@ -236,7 +236,7 @@ Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& 
   if (mesh.face_count() == 0 || mesh.point_count() == 0)
     return Error{ErrorCode::unsupported, "OpenSubdiv takes no mesh without faces", {"faceVertexIndices"}};
   // Far sums face corners over all levels: a third more than the last level has.
-  const Count corners = (mesh.face_count() * 3 << (2 * level)) * 4 / 3 + mesh.point_count();
+  const Count corners = (mesh.face_count() * 3 * triangles_per_face(level)) * 4 / 3 + mesh.point_count();
   if (auto fits = check_far_corners(corners); !fits) return fits;
   if (auto fits = check_far_bytes(far_mesh_bytes(mesh, level), budget); !fits) return fits;
   const auto load = far_load(mesh, budget);

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "core/lattice/split.h"
 #include "core/oracle/far.h"
 #include "core/oracle/verify.h"
-#include "core/refine/split.h"
 
 // In double: sums of products of what a caller may ask for leave 64 bits, and a bound needs no last digit.
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/base/pace.h"
+#include "core/lattice/split.h"
 #include "core/mesh/edges.h"
-#include "core/refine/split.h"
 
 namespace subdivd::oracle {
 namespace {

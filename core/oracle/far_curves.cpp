@@ -4,9 +4,9 @@
 
 #include "core/base/pace.h"
 #include "core/curves/subdivision.h"
+#include "core/lattice/split.h"
 #include "core/oracle/far.h"
 #include "core/oracle/far_cost.h"
-#include "core/refine/split.h"
 
 //     B0 --- B1 --- B2 --- B3        The border A0 A1 A2 … of a strip of triangles follows the curve's rules
 //     | \    | \    | \    |         whatever the row B is. Ends of open curves are made sharp corners. The

@@ -3,8 +3,8 @@
 
 #include "core/base/buffer.h"
 #include "core/base/pace.h"
+#include "core/lattice/split.h"
 #include "core/oracle/far_refiner.h"
-#include "core/refine/split.h"
 
 namespace subdivd::oracle {
 

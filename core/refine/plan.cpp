@@ -148,7 +148,7 @@ LevelCounts Plan::counts(Index level) const {
   const Topology& topology = net().topology();
   LevelCounts counts =
       refined_counts(topology.vertex_count(), topology.edge_count(), topology.face_count(), level);
-  counts.triangles = output_faces_ << (2 * level);
+  counts.triangles = output_faces_ * triangles_per_face(level);
   return counts;
 }
 

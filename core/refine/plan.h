@@ -11,10 +11,10 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/base/result.h"
+#include "core/engine/net.h"
+#include "core/lattice/split.h"
 #include "core/mesh/connectivity.h"
 #include "core/mesh/control_mesh.h"
-#include "core/refine/net.h"
-#include "core/refine/split.h"
 #include "core/schemes/all.h"
 
 namespace subdivd {

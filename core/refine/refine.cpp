@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "core/base/pace.h"
-#include "core/refine/evaluate.h"
-#include "core/refine/numbering.h"
+#include "core/engine/tri_grid/evaluate.h"
+#include "core/lattice/provenance.h"
+#include "core/lattice/split.h"
+#include "core/lattice/triangles.h"
 #include "core/refine/render_mesh.h"
-#include "core/refine/triangles.h"
 
 namespace subdivd {
 namespace {
@@ -99,33 +100,14 @@ class Job {
     if (auto done = write_indices(plan_.net(), out_.triangles); !done) return done;
     if (!options_.provenance) return {};
     out_.triangle_faces = triangle_faces();
-    return write_provenance();
-  }
-
-  Result<void> write_provenance() {
-    const Topology& topology = plan_.net().topology();
-    const Numbering numbering(topology, options_.level);
-    const Count n = numbering.segment_count();
-    out_.provenance.resize(numbering.vertex_count());
-    pace_.for_each(topology.vertex_count(), [&](Index v) { out_.provenance[v] = Provenance{}; });
-    for (Index f = topology.face_count(); f-- > 0;)  // backwards: the lowest-numbered face wins
-      for (Count j = 0; j <= n; ++j) {
-        pace_.spend(n + 1 - j);
-        for (Count i = 0; i + j <= n; ++i)
-          out_.provenance[numbering.vertex(f, i, j)] = {f, static_cast<Index>(i), static_cast<Index>(j)};
-      }
+    out_.provenance.resize(plan_.net().value_count(options_.level));
+    write_provenance(plan_.net().topology(), options_.level, out_.provenance, pace_);
     return {};
   }
 
   Buffer<Index> triangle_faces() const {
     Buffer<Index> faces(plan_.counts(options_.level).triangles);
-    Index* at = faces.data();
-    for (Index f = 0; f < plan_.holes().size(); ++f) {
-      pace_.spend(1);
-      if (plan_.holes()[f] != 0) continue;
-      pace_.in_blocks(Count{1} << (2 * options_.level),
-                      [&](Count begin, Count end) { at = std::fill_n(at, end - begin, f); });
-    }
+    write_triangle_faces(options_.level, plan_.holes(), faces.data(), pace_);
     return faces;
   }
 
@@ -198,7 +180,7 @@ class Job {
     for (const RenderMesh& render : mesh_.render_meshes) {  // their ranges ascend
       pace_.spend(256);
       for (; face < render.face_begin; ++face) faces += plan_.holes()[face] == 0;
-      const auto triangle_begin = static_cast<Index>(faces << (2 * options_.level));
+      const auto triangle_begin = static_cast<Index>(faces * triangles_per_face(options_.level));
       auto refined = refine_render_mesh(render, plan_.render_mesh(out_.render_meshes.size()), plan_,
                                         options_.level, triangle_begin, options_.threads, budget_);
       if (!refined) return std::move(refined).error();

@@ -6,11 +6,11 @@
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
+#include "core/lattice/split.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/repair.h"
 #include "core/refine/plan.h"
 #include "core/refine/refined_mesh.h"
-#include "core/refine/split.h"
 #include "core/schemes/all.h"
 
 namespace subdivd {

@@ -2,22 +2,17 @@
 // The result of refinement: flat arrays, and where on the control mesh every refined vertex lies.
 //
 // Numbering, in closed form (n = 2^level): base vertices 0..V-1; then the n-1 points inside base edge e
-// at V + e(n-1) + (i-1); then the (n-1)(n-2)/2 points inside face f, row by row. See core/refine/split.h.
+// at V + e(n-1) + (i-1); then the (n-1)(n-2)/2 points inside face f, row by row. See core/lattice/split.h.
 
 #include <string>
 #include <vector>
 
 #include "core/base/buffer.h"
 #include "core/base/index.h"
+#include "core/lattice/provenance.h"
 #include "core/mesh/control_mesh.h"
 
 namespace subdivd {
-
-// A point of a base triangle (v0, v1, v2): v0 + u (v1 - v0) + v (v2 - v0), with u = i/n, v = j/n.
-struct Provenance {
-  Index face = kNoIndex;  // the lowest-numbered base face that holds the vertex; kNoIndex: unreferenced point
-  Index i = 0, j = 0;
-};
 
 template <class Real>
 struct RefinedPrimvar {
@@ -61,11 +56,6 @@ struct RefinedMesh {
   Buffer<Real> limit_points;
   Buffer<Real> tangents_u, tangents_v;  // span the tangent plane; tangents_u x tangents_v points outwards
   Buffer<Real> normals;                 // unit; (0,0,0) where the surface has none (see core/limit)
-};
-
-// Size of a refined level, known before anything is refined.
-struct LevelCounts {
-  Count vertices = 0, edges = 0, triangles = 0;  // triangles: holes included
 };
 
 }  // namespace subdivd

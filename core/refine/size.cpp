@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "core/base/pace.h"
-#include "core/refine/numbering.h"
+#include "core/lattice/numbering.h"
 #include "core/refine/refine.h"
 
 namespace subdivd {
@@ -92,7 +92,7 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
   RefinedSize size;
   size.counts = plan.counts(options.level);
   if (auto fits = check_count("vertices", size.counts.vertices); !fits) return std::move(fits).error();
-  const Count all_triangles = Count{plan.net().topology().face_count()} << (2 * options.level);
+  const Count all_triangles = plan.net().topology().face_count() * triangles_per_face(options.level);
   if (auto fits = check_count("triangle corners", 3 * all_triangles); !fits) return std::move(fits).error();
 
   const Count indices = options.connectivity ? 3 * sizeof(Index) * size.counts.triangles : 0;
@@ -142,7 +142,7 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
     for (std::size_t c = 0; c < plan.channel_count(); ++c)
       sources += &connectivity != &plan.channel_net(c).topology();
     size.bytes += vertices * sizeof(Index) * sources +
-                  3 * sizeof(Index) * (static_cast<Count>(faces) << (2 * options.level));
+                  3 * sizeof(Index) * static_cast<Count>(faces) * triangles_per_face(options.level);
   }
   size.working_bytes = working_bytes<Real>(mesh, options, plan, pace);
   return size;

@@ -11,7 +11,7 @@
 
 namespace subdivd {
 
-// How a face splits: each split has one engine in core/refine.
+// How a face splits: each split has its numbering in core/lattice and an engine in core/engine.
 enum class Split { triangles };  // a triangle into four
 
 // A choice that a scheme leaves to the caller.

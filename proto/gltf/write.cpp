@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "core/lattice/split.h"
 #include "proto/gltf/fresh.h"
 #include "proto/gltf/gltf.h"
 #include "proto/gltf/output.h"
@@ -110,7 +111,7 @@ Count triangles_bytes(const TrianglesSlot& slot, const ControlMesh& mesh, const 
     vertices = size.render_vertices[slot.render_mesh];
     faces = render.face_end - render.face_begin;
   }
-  const Count corners = 3 * faces << (2 * level);
+  const Count corners = 3 * faces * triangles_per_face(level);
   Count floats = slot.normals ? 6 : 3;
   for (const AttributeSlot& attribute : slot.attributes) {
     floats += attribute.components;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/lattice/split.h"
 #include "core/refine/refine.h"
-#include "core/refine/split.h"
 #include "proto/json/json.h"
 #include "proto/options.h"
 

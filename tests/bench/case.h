@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "core/base/buffer.h"
+#include "core/engine/tri_grid/evaluate.h"
+#include "core/lattice/triangles.h"
 #include "core/oracle/far_timing.h"
-#include "core/refine/evaluate.h"
 #include "core/refine/plan.h"
-#include "core/refine/triangles.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/bench/workloads.h"
 

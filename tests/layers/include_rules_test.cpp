@@ -27,9 +27,11 @@ class IncludeRules : public ::testing::Test {
     root_ = fs::path(SUBDIVD_BINARY_DIR) / "planted_includes" / test->name();
     fs::remove_all(root_);
     for (const char* header :
-         {"core/base/result.h", "core/mesh/topology.h", "core/refine/split.h", "core/limit/limit.h",
-          "core/splines/bspline.h", "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h",
-          "proto/wire.h", "server/config.h", "server/transport/transport.h", "server/status.h"})
+         {"core/base/result.h", "core/mesh/topology.h", "core/schemes/all.h", "core/schemes/loop.h",
+          "core/lattice/split.h", "core/limit/limit.h", "core/engine/net.h",
+          "core/engine/tri_grid/evaluate.h", "core/refine/plan.h", "core/splines/bspline.h",
+          "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
+          "server/config.h", "server/transport/transport.h", "server/status.h"})
       write(header, "#pragma once");
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -69,16 +71,48 @@ TEST_F(IncludeRules, refuses_a_curve_among_the_splines) {
 TEST_F(IncludeRules, accepts_a_tree_without_strays) { EXPECT_THAT(check_includes(root_), IsEmpty()); }
 
 TEST_F(IncludeRules, accepts_an_arrow_that_is_drawn) {
-  EXPECT_THAT(planted("core/refine/a.cpp", "#include \"core/limit/limit.h\""), IsEmpty());
+  EXPECT_THAT(planted("core/refine/a.cpp", "#include \"core/engine/tri_grid/evaluate.h\""), IsEmpty());
 }
 
 TEST_F(IncludeRules, rejects_core_including_proto) {
   EXPECT_THAT(planted("core/mesh/a.h", "#include \"proto/wire.h\""), one_at("core/mesh/a.h", "proto/wire.h"));
 }
 
-TEST_F(IncludeRules, rejects_mesh_including_refine) {
-  EXPECT_THAT(planted("core/mesh/a.h", "#include \"core/refine/split.h\""),
-              one_at("core/mesh/a.h", "core/refine/split.h"));
+TEST_F(IncludeRules, rejects_mesh_including_the_lattice) {
+  EXPECT_THAT(planted("core/mesh/a.h", "#include \"core/lattice/split.h\""),
+              one_at("core/mesh/a.h", "core/lattice/split.h"));
+}
+
+// The way of the arrows: lattice, engine, refine.
+TEST_F(IncludeRules, rejects_the_lattice_including_an_engine) {
+  EXPECT_THAT(planted("core/lattice/a.h", "#include \"core/engine/net.h\""),
+              one_at("core/lattice/a.h", "core/engine/net.h"));
+}
+TEST_F(IncludeRules, accepts_an_engine_including_the_lattice) {
+  EXPECT_THAT(planted("core/engine/tri_grid/a.h", "#include \"core/lattice/split.h\""), IsEmpty());
+}
+TEST_F(IncludeRules, rejects_an_engine_including_refine) {
+  EXPECT_THAT(planted("core/engine/tri_grid/a.h", "#include \"core/refine/plan.h\""),
+              one_at("core/engine/tri_grid/a.h", "core/refine/plan.h"));
+}
+TEST_F(IncludeRules, rejects_what_engines_share_including_one_of_them) {
+  EXPECT_THAT(planted("core/engine/a.h", "#include \"core/engine/tri_grid/evaluate.h\""),
+              one_at("core/engine/a.h", "core/engine/tri_grid/evaluate.h"));
+}
+TEST_F(IncludeRules, rejects_limits_including_an_engine) {
+  EXPECT_THAT(planted("core/limit/a.h", "#include \"core/engine/net.h\""),
+              one_at("core/limit/a.h", "core/engine/net.h"));
+}
+
+TEST_F(IncludeRules, accepts_the_list_of_schemes_above_it) {
+  EXPECT_THAT(planted("core/engine/a.cpp", "#include \"core/schemes/all.h\""), IsEmpty());
+  EXPECT_THAT(planted("proto/a.cpp", "#include \"core/schemes/all.h\""), IsEmpty());
+}
+TEST_F(IncludeRules, rejects_whoever_names_one_scheme) {
+  for (const std::string file : {"core/limit/a.cpp", "core/refine/a.cpp", "proto/a.cpp", "server/a.cpp"}) {
+    EXPECT_THAT(planted(file, "#include \"core/schemes/loop.h\""), one_at(file, "one scheme"));
+    write(file, "");
+  }
 }
 
 TEST_F(IncludeRules, rejects_curves_including_mesh) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/refine/numbering.h"
+#include "core/lattice/numbering.h"
 #include "core/schemes/loop.h"
 
 namespace subdivd::plain {

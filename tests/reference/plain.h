@@ -8,10 +8,10 @@
 #include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/lattice/split.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
-#include "core/refine/split.h"
 
 namespace subdivd::plain {
 

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/lattice/numbering.h"
 #include "core/limit/limit.h"
-#include "core/refine/numbering.h"
 #include "core/schemes/loop.h"
 #include "tests/reference/plain.h"
 #include "tests/reference/ring.h"

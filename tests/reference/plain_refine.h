@@ -1,6 +1,6 @@
 #pragma once
 // refine() as it was before it was fast: level by level, every level's topology in full. The reference of the
-// engine in core/refine, with the same answer.
+// engine in core/engine/tri_grid, with the same answer.
 
 #include "core/refine/refine.h"
 

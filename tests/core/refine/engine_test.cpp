@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "core/refine/evaluate.h"
-#include "core/refine/kernels/tri_step.h"
+#include "core/engine/tri_grid/evaluate.h"
+#include "core/engine/tri_grid/kernels/tri_step.h"
+#include "core/lattice/triangles.h"
 #include "core/refine/plan.h"
-#include "core/refine/triangles.h"
 #include "tests/reference/plain_refine.h"
 #include "tests/shapes/shapes.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "core/refine/split.h"
+#include "core/lattice/split.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/random.h"
 

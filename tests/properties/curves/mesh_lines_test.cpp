@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lattice/numbering.h"
 #include "core/mesh/topology.h"
-#include "core/refine/numbering.h"
 #include "core/refine/refine.h"
 #include "tests/properties/curves/mesh_lines.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/refine/numbering.h"
+#include "core/lattice/numbering.h"
 #include "core/refine/refine.h"
 #include "tests/shapes/build.h"
 

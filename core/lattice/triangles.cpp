@@ -1,4 +1,4 @@
-#include "core/refine/triangles.h"
+#include "core/lattice/triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -7,22 +7,19 @@
 
 #include "core/base/pace.h"
 #include "core/base/parallel.h"
-#include "core/refine/numbering.h"
+#include "core/lattice/numbering.h"
 
 namespace subdivd {
 namespace {
 
-// Local numbers of a face's points: row by row, borders included.
-constexpr Index local(Count n, Count i, Count j) {
-  return static_cast<Index>(j * (n + 1) - j * (j - 1) / 2 + i);
-}
-
-// The local numbers of a face's triangles, in their order.
+// The corners of a face's triangles, in their order, each as the number of its point on the face.
 template <Count N>
 constexpr auto pattern() {
   std::array<unsigned char, 3 * N * N> pattern{};
   std::size_t at = 0;
-  const auto add = [&](Count i, Count j) { pattern[at++] = static_cast<unsigned char>(local(N, i, j)); };
+  const auto add = [&](Count i, Count j) {
+    pattern[at++] = static_cast<unsigned char>(face_point_index(N, i, j));
+  };
   for_each_triangle(N, [&](Count i0, Count j0, Count i1, Count j1, Count i2, Count j2) {
     add(i0, j0);
     add(i1, j1);
@@ -64,8 +61,8 @@ class FaceWriter {
   template <Count N>
   static void write_by_pattern(const FaceNumbers& numbers, Index* out) {
     static constexpr auto kPattern = pattern<N>();
-    Index points[local(N, 0, N) + 1];  // all set below
-    const auto set = [&](Count i, Count j, Index number) { points[local(N, i, j)] = number; };
+    Index points[face_points(N)];  // all set below
+    const auto set = [&](Count i, Count j, Index number) { points[face_point_index(N, i, j)] = number; };
     set(0, 0, numbers.corner[0]);
     set(N, 0, numbers.corner[1]);
     set(0, N, numbers.corner[2]);

@@ -1,12 +1,12 @@
 #pragma once
 // What is not plain along base edges: the points of semi-sharp ones, and limits where the surface is creased.
-// All else about edges are inner loops (core/refine/kernels).
+// All else about edges are inner loops (core/engine/tri_grid/kernels).
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/engine/net.h"
+#include "core/engine/tri_grid/evaluate.h"
 #include "core/limit/limit.h"
-#include "core/refine/evaluate.h"
-#include "core/refine/net.h"
 
 namespace subdivd {
 

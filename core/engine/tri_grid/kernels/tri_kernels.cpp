@@ -1,7 +1,7 @@
 #include <atomic>
 #include <type_traits>
 
-#include "core/refine/kernels/tri_step.h"
+#include "core/engine/tri_grid/kernels/tri_step.h"
 
 namespace subdivd::kernels {
 

@@ -9,11 +9,11 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/lattice/split.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
-#include "core/refine/split.h"
 #include "core/schemes/all.h"
 
 namespace subdivd {

@@ -15,10 +15,11 @@
 // Triangles:  face f owns n^2 triangles starting at f n^2, row by row: upright (i,j) is number
 //             n^2 - (n-j)^2 + 2i, the inverted one right of it the next
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/base/index.h"
-#include "core/refine/refined_mesh.h"
 
 namespace subdivd {
 
@@ -28,7 +29,18 @@ struct GridPoint {
   Index i = 0, j = 0;
 };
 
+// Size of a refined level, known before anything is refined.
+struct LevelCounts {
+  Count vertices = 0, edges = 0, triangles = 0;  // triangles: holes included
+};
+
 inline constexpr Count segments(Index level) { return Count{1} << level; }
+inline constexpr Count triangles_per_face(Index level) { return Count{1} << (2 * level); }
+// All points of one face's grid, borders included, and the number of (i, j) among them, row by row.
+inline constexpr Count face_points(Count n) { return (n + 1) * (n + 2) / 2; }
+inline constexpr Count face_point_index(Count n, Count i, Count j) {
+  return j * (n + 1) - (j * j - j) / 2 + i;
+}
 inline constexpr Count inner_points(Count n) { return n < 3 ? 0 : (n - 1) * (n - 2) / 2; }
 // Number of inner point (i, j) of a face, 0-based: i, j >= 1 and i + j < n.
 inline constexpr Count inner_index(Count n, Count i, Count j) {
@@ -43,6 +55,17 @@ inline GridPoint inner_point(Count n, Count index) {
   return {static_cast<Index>(index - inner_index(n, 1, j) + 1), static_cast<Index>(j)};
 }
 inline constexpr Count upright_index(Count n, Count i, Count j) { return n * n - (n - j) * (n - j) + 2 * i; }
+// Number within its face of the triangle with these corners, which may begin at any of them.
+inline constexpr Count triangle_index(Count n, std::span<const GridPoint, 3> corners) {
+  Count i = n, j = n, total = 0;
+  for (const GridPoint& corner : corners) {
+    i = std::min<Count>(i, corner.i);
+    j = std::min<Count>(j, corner.j);
+    total += corner.i + corner.j;
+  }
+  const bool inverted = total == 3 * (i + j) + 4;  // its corners sum to 4 more than three times the least
+  return upright_index(n, i, j) + (inverted ? 1 : 0);
+}
 
 // Counts of the refined mesh: V + E(n-1) + F(n-1)(n-2)/2 vertices, nE + 3F n(n-1)/2 edges, F n^2 triangles.
 // 64-bit results are exact for level <= kMaxLevel and counts below 2^32.

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/base/index.h"
+#include "core/lattice/split.h"
 #include "core/mesh/connectivity.h"
-#include "core/refine/split.h"
 
 namespace subdivd {
 

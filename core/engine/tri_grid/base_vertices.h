@@ -7,9 +7,9 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/engine/net.h"
+#include "core/engine/tri_grid/evaluate.h"
 #include "core/limit/limit.h"
-#include "core/refine/evaluate.h"
-#include "core/refine/net.h"
 
 namespace subdivd {
 
@@ -19,7 +19,7 @@ class BaseVertices {
   BaseVertices(const Net& net, const Scheme& scheme, Index width, Smoothing smoothing);
 
   // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner
-  // loops (core/refine/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
+  // loops (core/engine/tri_grid/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
   // closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end, const Pace& pace) const;
   // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each

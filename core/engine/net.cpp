@@ -1,4 +1,4 @@
-#include "core/refine/net.h"
+#include "core/engine/net.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include "core/refine/base_vertices.h"
+#include "core/engine/tri_grid/base_vertices.h"
 
 #include <algorithm>
 
-#include "core/refine/split.h"
+#include "core/lattice/split.h"
 
 namespace subdivd {
 

@@ -1,4 +1,4 @@
-#include "core/refine/numbering.h"
+#include "core/lattice/numbering.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/refine/evaluate.h"
+#include "core/engine/tri_grid/evaluate.h"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,10 @@
 #include "core/base/buffer.h"
 #include "core/base/pace.h"
 #include "core/base/parallel.h"
-#include "core/refine/base_edges.h"
-#include "core/refine/base_vertices.h"
-#include "core/refine/kernels/tri_step.h"
-#include "core/refine/numbering.h"
+#include "core/engine/tri_grid/base_edges.h"
+#include "core/engine/tri_grid/base_vertices.h"
+#include "core/engine/tri_grid/kernels/tri_step.h"
+#include "core/lattice/numbering.h"
 
 namespace subdivd {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/refine/base_edges.h"
+#include "core/engine/tri_grid/base_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "core/refine/base_vertices.h"
-#include "core/refine/numbering.h"
+#include "core/engine/tri_grid/base_vertices.h"
+#include "core/lattice/numbering.h"
 
 namespace subdivd {
 

@@ -1,6 +1,6 @@
 #pragma once
 // Values refined on a net: the engine's second half. The first, everything that does not depend on values, is
-// core/refine/net.h.
+// core/engine/net.h.
 
 #include <span>
 
@@ -8,7 +8,7 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
-#include "core/refine/net.h"
+#include "core/engine/net.h"
 
 namespace subdivd {
 
