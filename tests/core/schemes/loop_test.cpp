@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 
@@ -76,6 +77,34 @@ TEST(LoopLimit, regular_masks_are_those_of_the_box_spline) {
   const VertexMask mask = Loop{}.smooth_limit_mask(6);
   EXPECT_NEAR(mask.self, 1.0 / 2, 1e-15);
   EXPECT_NEAR(mask.each, 1.0 / 12, 1e-15);
+}
+
+// That they are left eigenvectors is tested of every scheme; this is the eigenvalue, of either weights. Of a
+// tangent only the edge points count: the vertex itself has no weight, or its column sums to nothing.
+TEST(LoopTangent, shrinks_by_three_eighths_and_a_quarter_of_the_cosine) {
+  for (const Index n : {3, 4, 5, 6, 7, 8, 12, 100}) {
+    const double lambda = 3.0 / 8 + std::cos(2 * std::numbers::pi / n) / 4;
+    const EdgeMask edge = Loop{}.edge_mask({2, 0, {0, 0}});
+    for (const RingMask& mask : {Loop{}.smooth_tangent_u(n), Loop{}.smooth_tangent_v(n)})
+      for (Index k = 0; k < n; ++k)
+        EXPECT_NEAR(edge.end * mask.edges[k] +
+                        edge.opposite * (mask.edges[(k + 1) % n] + mask.edges[(k + n - 1) % n]),
+                    lambda * mask.edges[k], 4e-15)
+            << n << ' ' << k;
+  }
+}
+
+TEST(LoopTangent, across_a_crease_shrinks_by_the_cosine_of_a_sector) {
+  for (const Index m : {2, 3, 4, 5, 8, 100}) {
+    const double lambda = 3.0 / 8 + std::cos(std::numbers::pi / m) / 4;
+    const EdgeMask edge = Loop{}.edge_mask({2, 0, {0, 0}});
+    const RingMask mask = Loop{}.crease_tangent_across(m);
+    const auto inner = [&](Index k) { return k == 0 || k == m ? 0 : mask.edges[k]; };  // borders give nothing
+    for (Index k = 1; k < m; ++k)
+      EXPECT_NEAR(edge.end * mask.edges[k] + edge.opposite * (inner(k - 1) + inner(k + 1)),
+                  lambda * mask.edges[k], 4e-15)
+          << m << ' ' << k;
+  }
 }
 
 TEST(AllSchemes, are_found_by_name_and_no_other_is) {

@@ -158,18 +158,21 @@ TYPED_TEST(MaskProperties, the_smooth_limit_mask_does_not_hold_at_a_dart) {
   }
 }
 
+// Whose eigenvalue each is depends on the scheme: see its own tests.
 TYPED_TEST(MaskProperties, tangents_are_left_eigenvectors) {
   for (const TypeParam& scheme : this->variants())
     for (Index n : kValences) {
       SCOPED_TRACE(n);
       const Matrix smooth = ring_matrix(scheme, n, {}, false), dart = ring_matrix(scheme, n, {0}, false);
-      const double lambda = (3 + 2 * std::cos(2 * std::numbers::pi / n)) / 8;
+      const double lambda = eigenvalue_of(as_row(scheme.smooth_tangent_u(n)), smooth);
+      EXPECT_GT(lambda, 0);
+      EXPECT_LT(lambda, 1);
       expect_left_eigenvector(as_row(scheme.smooth_tangent_u(n)), smooth, lambda, rounding(n));
       if (n > 2) expect_left_eigenvector(as_row(scheme.smooth_tangent_v(n)), smooth, lambda, rounding(n));
       if (n > 2) expect_left_eigenvector(as_row(scheme.smooth_tangent_v(n)), dart, lambda, rounding(n));
       const Matrix border = ring_matrix(scheme, n + 1, {0, n}, true);
-      const double across = (3 + 2 * std::cos(std::numbers::pi / n)) / 8;
-      expect_left_eigenvector(as_row(scheme.crease_tangent_across(n)), border, across, rounding(n));
+      const std::vector<double> across = as_row(scheme.crease_tangent_across(n));
+      expect_left_eigenvector(across, border, eigenvalue_of(across, border), rounding(n));
       std::vector<double> along(n + 2, 0.0);
       along[1] = 1;
       along[n + 1] = -1;
@@ -198,15 +201,20 @@ TYPED_TEST(MaskProperties, the_tangent_across_one_face_is_that_of_its_plane) {
 }
 
 TYPED_TEST(MaskProperties, the_crease_rule_depends_on_the_crease_alone) {
-  for (const TypeParam& scheme : this->variants())
+  for (const TypeParam& scheme : this->variants()) {
+    const std::vector<float> border(2, kInfiniteSharpness);  // of one face
+    const VertexMask least = scheme.vertex_mask({1, CreaseMethod::uniform, 0, 0, border, border});
     for (Index n : kValences) {
       std::vector<float> edges(n + 1, 0.0f);
       edges[0] = edges[n] = kInfiniteSharpness;
       const VertexMask mask = scheme.vertex_mask({n, CreaseMethod::uniform, 0, 0, edges, edges});
-      EXPECT_EQ(mask.self, 3.0 / 4);
+      EXPECT_EQ(mask.self, least.self);
       EXPECT_EQ(mask.each, 0);
-      EXPECT_EQ(mask.crease, 1.0 / 8);
+      EXPECT_EQ(mask.crease, least.crease);
+      EXPECT_EQ(mask.crease_ends[0], 0u);
+      EXPECT_EQ(mask.crease_ends[1], n);
     }
+  }
 }
 
 TYPED_TEST(MaskProperties, masks_do_not_change_when_the_ring_is_turned_or_mirrored) {
