@@ -30,6 +30,7 @@ const std::vector<Layer> kLayers = {
   {"core/analysis",    {"core/base/", "core/mesh/", "core/schemes/", "core/splines/", "core/curves/", "core/analysis/"}, {}},
   {"core/limit",       {"core/base/", "core/mesh/", "core/schemes/", "core/limit/"}, {}},
   {"core/engine",      {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/engine/net.h"}, {}},
+  {"core/engine/plain", {"core/base/", "core/mesh/", "core/schemes/", "core/engine/plain/"}, {}},
   {"core/engine/tri_grid", {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/limit/", "core/engine/net.h", "core/engine/tri_grid/"}, {}},
   {"core/refine",      {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/engine/", "core/refine/"}, {}},
   {"core/tessellate",  {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/refine/", "core/limit/", "core/tessellate/"}, {}},

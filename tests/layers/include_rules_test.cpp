@@ -99,6 +99,10 @@ TEST_F(IncludeRules, rejects_what_engines_share_including_one_of_them) {
   EXPECT_THAT(planted("core/engine/a.h", "#include \"core/engine/tri_grid/evaluate.h\""),
               one_at("core/engine/a.h", "core/engine/tri_grid/evaluate.h"));
 }
+TEST_F(IncludeRules, rejects_one_engine_including_another) {
+  EXPECT_THAT(planted("core/engine/plain/a.h", "#include \"core/engine/tri_grid/evaluate.h\""),
+              one_at("core/engine/plain/a.h", "core/engine/tri_grid/evaluate.h"));
+}
 TEST_F(IncludeRules, rejects_limits_including_an_engine) {
   EXPECT_THAT(planted("core/limit/a.h", "#include \"core/engine/net.h\""),
               one_at("core/limit/a.h", "core/engine/net.h"));

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <optional>
 
+#include "core/base/pace.h"
 #include "core/lattice/numbering.h"
 #include "core/limit/limit.h"
-#include "core/schemes/loop.h"
 #include "tests/reference/plain.h"
 #include "tests/reference/ring.h"
 
@@ -76,25 +76,21 @@ class Refinement {
       : scheme_(scheme),
         options_(options),
         budget_(budget),
-        base_(level.topology),
+        base_(topology_of(level.faces)),
         level_(std::move(level)) {}
 
   // One level on. `next_mesh`: for a channel, the mesh one level on; for the mesh itself null.
   Result<void> step(std::vector<Values<Real>>& sets, const Level* next_mesh) {
-    for (Values<Real>& set : sets) {
-      auto values = refine_values<Scheme, Real>(scheme_, options_.crease_method, level_, set.values,
-                                                set.width, set.linear, budget_);
-      if (!values) return std::move(values).error();
-      set.values = std::move(*values);
-    }
-    auto next = next_mesh != nullptr ? next_level(level_, *next_mesh, budget_)
-                                     : next_level(level_, options_.crease_method, budget_);
-    if (!next) return std::move(next).error();
-    level_ = std::move(*next);
-    return {};
+    return stoppable(budget_, [&](const Pace& pace) {
+      for (Values<Real>& set : sets)
+        set.values = apply<Real>(rows_of(scheme_, options_.crease_method, level_, set.linear, pace),
+                                 set.values, set.width, pace);
+      level_ = next_mesh != nullptr ? next_level(level_, *next_mesh, pace)
+                                    : next_level(level_, options_.crease_method, pace);
+    });
   }
 
-  void number() { numbers_ = closed_form_numbers(base_, options_.level, level_); }
+  void number() { numbers_ = closed_form_numbers(base_, options_.level, level_.faces); }
   const Level& level() const { return level_; }
 
   // The refined values in the order of the closed form.
@@ -140,8 +136,9 @@ class Refinement {
  private:
   template <class F>
   Result<void> for_each_ring(const Values<Real>& set, const Level& mesh, F&& f) const {
-    const SharpTopology own{level_.topology, level_.sharpness}, above{mesh.topology, mesh.sharpness};
-    for (Index v = 0; v < level_.topology.vertex_count(); ++v) {
+    const Topology faces = topology_of(level_.faces), mesh_faces = topology_of(mesh.faces);
+    const SharpTopology own{faces, level_.sharpness}, above{mesh_faces, mesh.sharpness};
+    for (Index v = 0; v < faces.vertex_count(); ++v) {
       if (v % 4096 == 0)
         if (auto stop = budget_.poll()) return *stop;
       f(v,

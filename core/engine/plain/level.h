@@ -1,0 +1,47 @@
+#pragma once
+// One level from the one before it, with the topology of every level in full: the way of any split on any
+// mesh, and the witness of the engines that do without.
+
+#include <array>
+#include <vector>
+
+#include "core/base/index.h"
+#include "core/base/pace.h"
+#include "core/engine/plain/polygons.h"
+#include "core/engine/plain/sparse_rows.h"
+#include "core/mesh/control_mesh.h"
+#include "core/mesh/sharpness.h"
+#include "core/schemes/all.h"
+
+namespace subdivd::plain {
+
+// One level of a mesh or of a face-varying channel of it.
+struct Level {
+  Polygons faces;
+  Sharpness sharpness;
+  // Sharpness of the halves of every edge, one level on: [e][0] next to its lower-numbered end, [e][1] to the
+  // other.
+  std::vector<std::array<float, 2>> halves;
+  bool linear = false, linear_borders = false;  // see Channel
+};
+
+// Level 0 of a mesh.
+Level first_level(Polygons faces, Sharpness sharpness, CreaseMethod method, const Pace& pace = {});
+// Of a channel. It has the mesh's sharpness but for its borders, at every level: under Chaikin's rule that
+// decays with the edges around a point of the *mesh*, of which a channel's vertex at a seam sees only some.
+// `mesh`: the level of the mesh that this level of the channel belongs to; the same faces in the same order.
+Level first_level(Polygons faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
+                  const Pace& pace = {});
+
+// One step of Split::triangles, every face being a triangle. The vertex point of v has the number v, the edge
+// point of e the number V + e; face f has the children 4 f + k at its corners k and 4 f + 3 between; edge e the
+// halves 2 e, at its lower end, and 2 e + 1, and inside face f, across its corner k, lies edge 2 E + 3 f + k.
+Level next_level(const Level& level, CreaseMethod method, const Pace& pace = {});
+Level next_level(const Level& channel, const Level& next_mesh, const Pace& pace = {});
+
+// The values of that step's vertices from those of `level`'s. `linear`: midpoints, whatever the level's own
+// rules.
+SparseRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
+                   const Pace& pace = {});
+
+}  // namespace subdivd::plain
