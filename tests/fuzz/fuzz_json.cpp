@@ -12,6 +12,7 @@
 
 #include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
+#include "core/schemes/all.h"
 #include "proto/decode.h"
 #include "proto/problem.h"
 
@@ -63,6 +64,12 @@ void refine_and_encode(const proto::RefineRequest& request, const proto::Limits&
     auto refined = refine<double>(mesh, proto::mesh_options(request), Budget{});
     if (!refined) return;
     answer.meshes.push_back(std::move(*refined));
+    for (const std::string_view scheme : kSchemeNames)
+      if (scheme != mesh.subdivision_scheme) {
+        ControlMesh other = mesh;
+        other.subdivision_scheme = scheme;
+        (void)refine<double>(other, proto::mesh_options(request), Budget{});
+      }
   }
   for (const ControlCurves& curves : request.curves) {
     auto refined = refine<double>(curves, proto::curve_options(request, curves), Budget{});

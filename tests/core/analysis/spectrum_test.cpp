@@ -307,8 +307,9 @@ TEST(Spectrum, of_every_scheme_of_the_list_exists_at_the_ends_of_its_parameters)
 }
 
 TEST(Spectrum, by_name_is_that_of_the_function) {
-  const auto named =
-      value_of(spectrum({.name = "loop", .schemes = {Loop{LoopWeights::warren}}, .valence = 5}, Budget{}));
+  AllSchemes schemes;
+  std::get<Loop>(schemes).weights = LoopWeights::warren;
+  const auto named = value_of(spectrum({.name = "loop", .schemes = schemes, .valence = 5}, Budget{}));
   EXPECT_EQ(named.matrix, loop_at(LoopWeights::warren, 5).matrix);
   EXPECT_NE(named.matrix, loop_at(LoopWeights::loop, 5).matrix);
   EXPECT_EQ(value_of(spectrum({.name = "loop", .valence = 5, .border = true}, Budget{})).matrix,

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "core/engine/tri_grid/evaluate.h"
 #include "core/engine/tri_grid/kernels/tri_step.h"
 #include "core/lattice/triangles.h"
 #include "core/refine/plan.h"
+#include "core/schemes/all.h"
 #include "tests/reference/plain_refine.h"
 #include "tests/shapes/shapes.h"
 
@@ -61,7 +63,7 @@ void expect_normals(const RefinedMesh<double>& ours, const RefinedMesh<double>& 
 }
 
 template <class Real>
-void expect_as_plain(const ControlMesh& mesh, const RefineOptions& options, const std::string& what) {
+void expect_scheme_as_plain(const ControlMesh& mesh, const RefineOptions& options, const std::string& what) {
   const auto ours = refine<Real>(mesh, options, {});
   const auto plain = plain::refine<Real>(mesh, options);
   ASSERT_TRUE(ours.ok()) << what << ": " << ours.error().message;
@@ -82,6 +84,15 @@ void expect_as_plain(const ControlMesh& mesh, const RefineOptions& options, cons
     EXPECT_EQ(ours->primvars[p].indices, plain->primvars[p].indices) << name;
     EXPECT_LE(ulps<Real>(ours->primvars[p].values, plain->primvars[p].values), kUlps) << name;
     EXPECT_LE(ulps<Real>(ours->primvars[p].limit_values, plain->primvars[p].limit_values), kUlps) << name;
+  }
+}
+
+// By every scheme of the list.
+template <class Real>
+void expect_as_plain(ControlMesh mesh, const RefineOptions& options, const std::string& what) {
+  for (const std::string_view scheme : kSchemeNames) {
+    mesh.subdivision_scheme = scheme;
+    expect_scheme_as_plain<Real>(mesh, options, what + ' ' + std::string(scheme));
   }
 }
 

@@ -108,7 +108,9 @@ TEST(LoopTangent, across_a_crease_shrinks_by_the_cosine_of_a_sector) {
 }
 
 TEST(AllSchemes, are_found_by_name_and_no_other_is) {
-  const auto found = find_scheme("loop", {Loop{LoopWeights::warren}});
+  AllSchemes schemes;
+  std::get<Loop>(schemes).weights = LoopWeights::warren;
+  const auto found = find_scheme("loop", schemes);
   ASSERT_TRUE(found.has_value());
   ASSERT_TRUE(std::holds_alternative<Loop>(*found));
   EXPECT_EQ(std::get<Loop>(*found).weights, LoopWeights::warren);

@@ -4,19 +4,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/lattice/numbering.h"
 #include "core/refine/refine.h"
+#include "core/schemes/all.h"
 #include "tests/shapes/build.h"
 
 namespace subdivd {
 namespace {
 
+// Each of the shapes once for every scheme of the list.
+std::vector<shapes::NamedShape> of_every_scheme(const std::vector<shapes::NamedShape>& given) {
+  std::vector<shapes::NamedShape> result;
+  for (const std::string_view scheme : kSchemeNames)
+    for (shapes::NamedShape shape : given) {
+      shape.name += ' ' + std::string(scheme);
+      shape.mesh.subdivision_scheme = scheme;
+      result.push_back(std::move(shape));
+    }
+  return result;
+}
+
 std::vector<shapes::NamedShape> all() {
   std::vector<shapes::NamedShape> result = shapes::all_shapes();
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
     result.push_back({"random_mesh " + std::to_string(seed), shapes::random_mesh(seed)});
-  return result;
+  return of_every_scheme(result);
 }
 
 RefinedMesh<double> refined(const ControlMesh& mesh, Index level, bool limit = false,
@@ -67,7 +84,7 @@ TEST(RefineProperties, the_limit_of_refined_face_varying_values_is_the_limit) {
 // Refined points come closer to the limit by about 1/4 a level or, at high valences, by less: they do
 // approach.
 TEST(RefineProperties, refined_points_approach_the_limit) {
-  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+  for (const auto& [name, mesh] : of_every_scheme(shapes::closed_shapes())) {
     SCOPED_TRACE(name);
     auto distance = [&](Index level) {
       const auto mesh_at = refined(mesh, level, true);
@@ -103,7 +120,7 @@ TEST(RefineProperties, affine_maps_commute_with_refinement) {
 }
 
 TEST(RefineProperties, planar_meshes_stay_planar_with_normals_across) {
-  for (const auto& shape : shapes::border_shapes()) {
+  for (const auto& shape : of_every_scheme(shapes::border_shapes())) {
     ControlMesh mesh = shape.mesh;
     SCOPED_TRACE(shape.name);
     for (std::size_t k = 2; k < mesh.points.size(); k += 3) mesh.points[k] = 7;
@@ -155,9 +172,9 @@ TEST(RefineProperties, renumbering_only_renumbers) {
 // Without tags the refined mesh is a control mesh like any other; unless two of its edges have the same ends,
 // which a list of faces cannot say: the two sides of a pillow.
 TEST(RefineProperties, two_single_steps_are_one_double_step) {
-  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+  for (const auto& [name, mesh] : of_every_scheme(shapes::closed_shapes())) {
     SCOPED_TRACE(name);
-    if (name == "closed_pillow_valence_2") continue;
+    if (mesh.name == "closed_pillow_valence_2") continue;
     const auto once = refined(mesh, 1), twice = refined(mesh, 2);
     ControlMesh between;
     between.points.assign(once.points.begin(), once.points.end());
@@ -204,7 +221,7 @@ TEST(RefineProperties, bits_depend_on_nothing_but_the_mesh) {
 
 // Normals of the limit surface do not depend on the level they are asked at.
 TEST(RefineProperties, normals_are_those_of_the_limit_surface) {
-  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+  for (const auto& [name, mesh] : of_every_scheme(shapes::closed_shapes())) {
     SCOPED_TRACE(name);
     const auto at1 = refined(mesh, 1, true), at3 = refined(mesh, 3, true);
     for (std::size_t v = 0; v < mesh.point_count(); ++v) {
@@ -212,7 +229,7 @@ TEST(RefineProperties, normals_are_those_of_the_limit_surface) {
       double dot = 0;
       for (std::size_t c = 0; c < 3; ++c) dot += at1.normals[3 * v + c] * at3.normals[3 * v + c];
       // Two triangles over the same three points are flat, and out is on both sides: no normal, at any level.
-      if (name == "closed_pillow_valence_2")
+      if (mesh.name == "closed_pillow_valence_2")
         ASSERT_EQ(dot, 0) << "vertex " << v;
       else
         ASSERT_GT(dot, 1 - 1e-12) << "vertex " << v;
