@@ -122,12 +122,17 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
                  .allowed = limits.max_body_bytes};
   Result<RefineRequest> request = read_any(body, kind, query, limits, budget);
   if (!request) return request;
-  if (Result<void> fine = check_options(*request, limits, query); !fine) return fine.error();
-  override_meshes(*request);
-  if (Result<void> fine = prepare(*request, budget); !fine) return fine.error();
-  if (answer_format(*request) != Format::json)
-    if (Result<void> done = gltf::add_render_meshes(*request, budget); !done) return done.error();
+  if (Result<void> ready = make_ready(*request, query, limits, budget); !ready) return ready.error();
   return request;
+}
+
+Result<void> make_ready(RefineRequest& request, const QueryParameters& query, const Limits& limits,
+                        const Budget& budget) {
+  if (Result<void> fine = check_options(request, limits, query); !fine) return fine;
+  override_meshes(request);
+  if (Result<void> fine = prepare(request, budget); !fine) return fine;
+  if (answer_format(request) == Format::json) return {};
+  return gltf::add_render_meshes(request, budget);
 }
 
 Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits, const Budget& budget) {

@@ -30,6 +30,11 @@ using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
                                     const Limits& limits, const Budget& budget = {});
 
+// The last step of reading: checks the options against the limits and each other (`query` tells who is to
+// blame), lets them override what the meshes say, repairs what may be repaired and checks everything.
+Result<void> make_ready(RefineRequest& request, const QueryParameters& query, const Limits& limits,
+                        const Budget& budget = {});
+
 // Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for the JSON
 // text. Refuses what exceeds the limits (too_large with predicted and allowed).
 struct Prediction {

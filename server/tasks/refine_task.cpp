@@ -141,6 +141,14 @@ Result<proto::Payload> refine(const proto::RefineRequest& request, const proto::
   return payload;
 }
 
+Result<proto::AnyAnswer> compute(const proto::RefineRequest& request, const proto::Limits& limits,
+                                 const Budget& budget) {
+  const auto plans = plan_and_take(request, true, request.options.verify, limits, budget);
+  if (!plans) return plans.error();
+  Phases phases;
+  return compute_refinement(request, *plans, budget, phases);
+}
+
 Result<proto::Payload> verify(const proto::RefineRequest& request, const proto::Limits& limits,
                               const Budget& budget, Phases& phases) {
   const auto plans = plan_and_take(request, false, true, limits, budget);

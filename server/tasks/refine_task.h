@@ -15,6 +15,10 @@ namespace subdivd::server::tasks {
 Result<proto::Payload> refine(const proto::RefineRequest& request, const proto::Limits& limits,
                               const Budget& budget, Phases& phases);
 
+// What refine() encodes.
+Result<proto::AnyAnswer> compute(const proto::RefineRequest& request, const proto::Limits& limits,
+                                 const Budget& budget = {});
+
 // The report alone. Ends the phases "plan", "verify", "write".
 Result<proto::Payload> verify(const proto::RefineRequest& request, const proto::Limits& limits,
                               const Budget& budget, Phases& phases);

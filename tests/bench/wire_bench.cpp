@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "proto/decode.h"
+#include "server/tasks/refine_task.h"
 #include "tests/shapes/build.h"
 
 namespace subdivd::proto {
@@ -70,20 +71,11 @@ RefineRequest torus_request(Index side, Format format, Content content, Index le
   return request;
 }
 
-template <class Real>
-AnyAnswer answer_to(const RefineRequest& request) {
-  RefineAnswer<Real> answer;
-  answer.meshes.push_back(*refine<Real>(request.meshes[0], mesh_options(request), {}));
-  return answer;
-}
-
-AnyAnswer answer_to(const RefineRequest& request, Format format) {
-  return format == Format::json ? answer_to<double>(request) : answer_to<float>(request);
-}
+AnyAnswer answer_to(const RefineRequest& request) { return *server::tasks::compute(request, kRoomy); }
 
 std::string glb_of(Index side, Content content) {
   const RefineRequest request = torus_request(side, Format::glb, content, 0);
-  return text_of(*encode_refine(request, answer_to(request, Format::glb)));
+  return text_of(*encode_refine(request, answer_to(request)));
 }
 
 // Every number as it is usually written: 6 decimals.
@@ -137,7 +129,7 @@ void write(benchmark::State& state, Format format, Content content) {
     request = *decode_refine(glb_of(side, content), BodyKind::glb, {}, kRoomy);
     request.options.level = 2;
   }
-  const AnyAnswer answer = answer_to(request, format);
+  const AnyAnswer answer = answer_to(request);
   Count bytes = 0;
   for (auto _ : state) {
     state.PauseTiming();

@@ -6,8 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/refine/refine.h"
+#include "core/mesh/repair.h"
 #include "proto/gltf/gltf.h"
+#include "server/tasks/refine_task.h"
 
 using namespace subdivd;
 
@@ -15,21 +16,10 @@ namespace {
 
 // Level 0 keeps the cost at the decoder; what it lets through must then refine and encode.
 void answer(const proto::RefineRequest& request) {
-  RefineOptions options{.level = 0, .normals = request.options.normals};
-  proto::RefineAnswer<float> refined;
-  Budget budget;
-  budget.max_bytes = Count{1} << 24;
-  for (const ControlMesh& mesh : request.meshes) {
-    auto made = refine<float>(mesh, options, budget);
-    if (!made) return;
-    refined.meshes.push_back(*std::move(made));
-  }
-  for (const ControlCurves& curves : request.curves) {
-    auto made = refine<float>(curves, CurveOptions{.level = 0}, budget);
-    if (!made) return;
-    refined.curves.push_back(*std::move(made));
-  }
-  (void)proto::gltf::write(request, std::move(refined), proto::Format::glb, "{}");
+  proto::Limits limits;
+  limits.max_output_bytes = Count{1} << 24;
+  server::tasks::Phases phases;
+  (void)server::tasks::refine(request, limits, Budget(), phases);
 }
 
 }  // namespace
@@ -39,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto format = body.starts_with("glTF") ? proto::Format::glb : proto::Format::gltf;
   proto::Options options;
   options.level = 0;
+  options.format = proto::Format::glb;
   proto::Limits limits;
   limits.max_output_bytes = Count{1} << 24;
   auto request = proto::gltf::read(body, format, options, limits);

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/curves/subdivision.h"
 #include "core/refine/refine.h"
 #include "core/schemes/all.h"
 #include "proto/decode.h"
 #include "proto/problem.h"
+#include "server/tasks/refine_task.h"
 
 namespace {
 
@@ -59,29 +59,14 @@ std::string text_of(const proto::Payload& payload) {
 
 // A refusal late in the work (numbers that overflow) is an answer, too.
 void refine_and_encode(const proto::RefineRequest& request, const proto::Limits& limits) {
-  proto::RefineAnswer<double> answer;
-  for (const ControlMesh& mesh : request.meshes) {
-    auto refined = refine<double>(mesh, proto::mesh_options(request), Budget{});
-    if (!refined) return;
-    answer.meshes.push_back(std::move(*refined));
-    for (const std::string_view scheme : kSchemeNames)
-      if (scheme != mesh.subdivision_scheme) {
-        ControlMesh other = mesh;
-        other.subdivision_scheme = scheme;
-        (void)refine<double>(other, proto::mesh_options(request), Budget{});
-      }
-  }
-  for (const ControlCurves& curves : request.curves) {
-    auto refined = refine<double>(curves, proto::curve_options(request, curves), Budget{});
-    if (!refined) return;
-    answer.curves.push_back(std::move(*refined));
-  }
-  for (const ControlPatch& surface : request.surfaces) {
-    auto refined = refine<double>(surface, proto::patch_options(request, surface), Budget{});
-    if (!refined) return;
-    answer.surfaces.push_back(std::move(*refined));
-  }
-  const auto payload = proto::encode_refine(request, std::move(answer));
+  for (ControlMesh other : request.meshes)
+    for (const std::string_view scheme : kSchemeNames) {
+      if (scheme == other.subdivision_scheme) continue;
+      other.subdivision_scheme = scheme;
+      (void)refine<double>(other, proto::mesh_options(request), Budget{});
+    }
+  server::tasks::Phases phases;
+  const auto payload = server::tasks::refine(request, limits, Budget{}, phases);
   if (!payload) return;
   const std::string text = text_of(*payload);
   require(nlohmann::json::accept(text));

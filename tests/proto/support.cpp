@@ -4,35 +4,10 @@
 #include <iterator>
 #include <utility>
 
-#include "core/curves/subdivision.h"
-#include "core/refine/refine.h"
 #include "proto/problem.h"
+#include "server/tasks/refine_task.h"
 
 namespace subdivd::proto::test {
-namespace {
-
-template <class Real>
-Result<AnyAnswer> compute_as(const RefineRequest& request) {
-  RefineAnswer<Real> answer;
-  for (const ControlMesh& mesh : request.meshes) {
-    Result<RefinedMesh<Real>> refined = refine<Real>(mesh, mesh_options(request), Budget{});
-    if (!refined) return refined.error();
-    answer.meshes.push_back(std::move(*refined));
-  }
-  for (const ControlCurves& curves : request.curves) {
-    Result<RefinedCurves<Real>> refined = refine<Real>(curves, curve_options(request, curves), Budget{});
-    if (!refined) return refined.error();
-    answer.curves.push_back(std::move(*refined));
-  }
-  for (const ControlPatch& surface : request.surfaces) {
-    Result<RefinedPatch<Real>> refined = refine<Real>(surface, patch_options(request, surface), Budget{});
-    if (!refined) return refined.error();
-    answer.surfaces.push_back(std::move(*refined));
-  }
-  return AnyAnswer(std::move(answer));
-}
-
-}  // namespace
 
 Result<RefineRequest> decode(std::string_view body, const QueryParameters& query, const Limits& limits) {
   return decode_refine(body, BodyKind::json, query, limits);
@@ -54,10 +29,7 @@ std::string message(std::string_view body, const QueryParameters& query) {
   return request ? std::string() : request.error().message;
 }
 
-Result<AnyAnswer> compute(const RefineRequest& request) {
-  return answer_precision(request) == Precision::single_precision ? compute_as<float>(request)
-                                                                  : compute_as<double>(request);
-}
+Result<AnyAnswer> compute(const RefineRequest& request) { return server::tasks::compute(request, Limits{}); }
 
 std::string text_of(const Payload& payload) {
   std::string text;
@@ -69,11 +41,8 @@ std::string text_of(const Payload& payload) {
 Result<std::string> answer(std::string_view body, const QueryParameters& query, const Limits& limits) {
   Result<RefineRequest> request = decode(body, query, limits);
   if (!request) return request.error();
-  const Result<Prediction> prediction = predict_refine(*request, limits);
-  if (!prediction) return prediction.error();
-  Result<AnyAnswer> computed = compute(*request);
-  if (!computed) return computed.error();
-  Result<Payload> payload = encode_refine(*request, std::move(*computed));
+  server::tasks::Phases phases;
+  Result<Payload> payload = server::tasks::refine(*request, limits, Budget{}, phases);
   if (!payload) return payload.error();
   return text_of(*payload);
 }

@@ -3,6 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "proto/decode.h"
+#include "server/tasks/refine_task.h"
+
 namespace subdivd::test {
 
 using namespace proto;
@@ -28,50 +31,20 @@ std::string to_pointer(const Path& path) {
 }
 
 Result<Outcome> answer(RefineRequest request) {
-  RefineOptions options{.level = request.options.level,
-                        .schemes = request.options.schemes,
-                        .crease_method = request.options.crease_method,
-                        .limit = request.options.limit,
-                        .normals = request.options.normals};
-  RefineAnswer<float> refined;
-  std::vector<RefinedSize> sizes;
-  for (const ControlMesh& mesh : request.meshes) {
-    auto size = predict_size<float>(mesh, options);
-    if (!size) return size.error();
-    sizes.push_back(*size);
-    auto made = refine<float>(mesh, options, Budget());
-    if (!made) return made.error();
-    refined.meshes.push_back(*std::move(made));
-  }
-  for (const ControlCurves& curves : request.curves) {
-    auto made =
-        refine<float>(curves, CurveOptions{request.options.level, request.options.limit, false}, Budget());
-    if (!made) return made.error();
-    refined.curves.push_back(*std::move(made));
-  }
-  Outcome outcome;
-  const auto predicted = gltf::predicted_bytes(request, sizes);
+  if (!request.options.format) request.options.format = Format::glb;
+  const auto predicted = predict_refine(request, Limits{});
   if (!predicted) return predicted.error();
-  outcome.predicted = *predicted;
-  auto payload = gltf::write(request, std::move(refined), request.options.format.value_or(Format::glb),
-                             R"({"options":{"level":2}})");
+  server::tasks::Phases phases;
+  const auto payload = server::tasks::refine(request, Limits{}, Budget{}, phases);
   if (!payload) return payload.error();
-  outcome.bytes = to_string(*payload);
-  outcome.request = std::move(request);
-  return outcome;
+  return Outcome{std::move(request), predicted->answer_bytes, to_string(*payload)};
 }
 
 Result<Outcome> refine_gltf(const std::string& body, Format format, Options options, const Limits& limits) {
   auto request = gltf::read(body, format, options, limits);
   if (!request) return request.error();
-  for (ControlMesh& mesh : request->meshes) {
-    if (options.interpolate_boundary) mesh.interpolate_boundary = *options.interpolate_boundary;
-    if (auto dropped = drop_degenerate_faces(mesh); !dropped) return dropped.error();
-    if (auto good = mesh.check(); !good) return good.error();
-  }
-  for (const ControlCurves& curves : request->curves)
-    if (auto good = curves.check(); !good) return good.error();
   request->options.format = options.format.value_or(format);
+  if (auto ready = make_ready(*request, {}, limits); !ready) return ready.error();
   return answer(*std::move(request));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A request from bytes to bytes, as the daemon does it, without the parts of proto that are not glTF's.
+// A glTF request from bytes to bytes, by the daemon's own steps, with options that need not stand in a query.
 
 #include <string>
 
@@ -13,7 +13,7 @@ struct Outcome {
   std::string bytes;  // of the whole answer
 };
 
-// Reads, drops degenerate faces, checks, predicts, refines in single precision, writes.
+// Reads, makes ready, plans, predicts, refines, writes.
 Result<Outcome> refine_gltf(const std::string& body, proto::Format format, proto::Options options,
                             const proto::Limits& limits = {});
 // From predicting on: for requests made in tests.
