@@ -124,7 +124,7 @@ std::optional<Response> Application::screen_plainly(const Request& head) {
     response.headers.emplace_back("Allow", methods);
     return response;
   }
-  if (route->method != "POST") return std::nullopt;
+  if (route->method == "GET" || route->method == "DELETE") return std::nullopt;
   if (draining_)
     return problem_response(Refusal{503, "shutting_down", "this server is finishing its last requests"});
   return screen_body(head, route->takes_gltf);
