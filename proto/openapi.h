@@ -1,5 +1,5 @@
 #pragma once
-// The description of the HTTP surface, OpenAPI 3.1: proto/openapi.json, embedded at build time.
+// The description of the HTTP surface, OpenAPI 3.1: made by proto/openapi when the program is built.
 
 #include <string_view>
 

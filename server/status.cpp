@@ -73,6 +73,12 @@ std::string_view title_of_refusal(std::string_view code) {
   return found == kTitles.end() ? std::string_view("The request was refused") : found->title;
 }
 
+std::vector<std::string_view> refusal_codes() {
+  std::vector<std::string_view> codes;
+  for (const Title& title : kTitles) codes.push_back(title.code);
+  return codes;
+}
+
 Response problem_response(const Error& error) {
   return response_of(proto::to_problem(error, status_of(error)));
 }

@@ -1,4 +1,4 @@
-// openapi.json by judges of its own kind: it is valid OpenAPI, and its schema of a request accepts what the
+// openapi_document.mjs DOCUMENT: the OpenAPI document by judges of its own kind: it is valid OpenAPI, and its schema of a request accepts what the
 // reader accepts (the examples) and refuses what it refuses.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
@@ -8,7 +8,7 @@ import Ajv2020 from 'ajv/dist/2020.js';
 import addFormats from 'ajv-formats';
 
 const folder = fileURLToPath(new URL('../../proto/', import.meta.url));
-const document = JSON.parse(readFileSync(`${folder}openapi.json`, 'utf8'));
+const document = JSON.parse(readFileSync(process.argv[2], 'utf8'));
 
 const validator = new Validator();
 const verdict = await validator.validate(structuredClone(document));

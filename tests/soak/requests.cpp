@@ -80,8 +80,8 @@ void add_assets(std::vector<Request>& list, const std::string& sources) {
 }
 
 // Every example that the API shows, under the path that shows it.
-void add_examples(std::vector<Request>& list, const std::string& sources) {
-  const Json document = Json::parse(file_text(sources + "/proto/openapi.json"));
+void add_examples(std::vector<Request>& list) {
+  const Json document = Json::parse(file_text(SUBDIVD_OPENAPI));
   for (const auto& [path, operations] : document.at("paths").items()) {
     if (!operations.contains("post")) continue;
     const Json& content = operations.at("post").at("requestBody").at("content");
@@ -138,7 +138,7 @@ std::vector<Request> good_requests(const std::string& sources) {
   add_plain(list);
   add_meshes(list);
   add_assets(list, sources);
-  add_examples(list, sources);
+  add_examples(list);
   return list;
 }
 

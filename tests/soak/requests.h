@@ -32,7 +32,7 @@ std::string sheet_json(int columns, int rows, std::string_view extra = {});
 inline constexpr std::string_view kTetrahedron =
     R"({"points":[[4,4,4],[-4,-4,4],[-4,4,-4],[4,-4,-4]],"faceVertexIndices":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]})";
 
-// `sources` is the root of the project: bodies of tests/shapes and the examples of proto/openapi.json are
+// `sources` is the root of the project: bodies of tests/shapes and the examples of the OpenAPI document are
 // sent. Each of them needs less than 64 MiB of memory.
 std::vector<Request> good_requests(const std::string& sources);
 std::vector<Request> refused_requests(const std::string& sources);
