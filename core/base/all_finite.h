@@ -2,6 +2,7 @@
 // Whether many numbers are all of a size that is allowed.
 
 #include <bit>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -12,7 +13,7 @@ namespace subdivd {
 // |x| < limit for all of them, and no NaN. Without their sign numbers are in the order of their bits, NaN
 // behind infinity, which itself is behind all others: adding what the limit lacks to the sign bit carries
 // into it from the limit on. In integers, because compilers spread these over lanes.
-template <class Real>
+template <std::floating_point Real>
 bool all_below(std::span<const Real> values, Real limit) {
   using Bits = std::conditional_t<sizeof(Real) == 8, std::uint64_t, std::uint32_t>;
   constexpr Bits kSign = Bits{1} << (sizeof(Real) * 8 - 1);
@@ -22,7 +23,7 @@ bool all_below(std::span<const Real> values, Real limit) {
   return (carries & kSign) == 0;
 }
 
-template <class Real>
+template <std::floating_point Real>
 bool all_finite(std::span<const Real> values) {
   return all_below(values, std::numeric_limits<Real>::infinity());
 }

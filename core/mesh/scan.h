@@ -4,33 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <span>
 
+#include "core/base/all_finite.h"
 #include "core/base/index.h"
 #include "core/base/pace.h"
 
 namespace subdivd {
-namespace detail {
-
-// x - x is +0 for every number, and NaN for NaN and the infinities.
-template <class Bits, class Real>
-bool differences_vanish(std::span<const Real> values) {
-  Bits any = 0;
-  for (const Real value : values) any |= std::bit_cast<Bits>(value - value);
-  return any == 0;
-}
-
-}  // namespace detail
-
-inline bool all_finite(std::span<const double> values) {
-  return detail::differences_vanish<std::uint64_t>(values);
-}
-inline bool all_finite(std::span<const float> values) {
-  return detail::differences_vanish<std::uint32_t>(values);
-}
 
 // Whether no value is larger than `limit` in magnitude. Values must be finite.
 inline bool all_within(std::span<const double> values, double limit) {

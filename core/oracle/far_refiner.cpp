@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/mesh/creases.h"
+
 namespace subdivd::oracle {
 namespace {
 
@@ -78,16 +80,12 @@ CreaseEdges crease_edges(const ControlMesh& mesh) {
   CreaseEdges edges;
   if (mesh.crease_lengths.empty()) return edges;
   const std::vector<Index> corners = corner_counts(mesh);
-  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
-  Count point = 0, edge = 0;
-  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
-    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
-      const Index a = mesh.crease_indices[point], b = mesh.crease_indices[point + 1];
-      const bool a_first = corners[a] <= corners[b];
-      edges.ends.push_back(static_cast<int>(a_first ? a : b));
-      edges.ends.push_back(static_cast<int>(a_first ? b : a));
-      edges.sharpnesses.push_back(mesh.crease_sharpnesses[per_crease ? crease : edge]);
-    }
+  for_each_crease_edge(mesh, [&](Count, Index a, Index b, float sharpness) {
+    const bool a_first = corners[a] <= corners[b];
+    edges.ends.push_back(static_cast<int>(a_first ? a : b));
+    edges.ends.push_back(static_cast<int>(a_first ? b : a));
+    edges.sharpnesses.push_back(sharpness);
+  });
   return edges;
 }
 

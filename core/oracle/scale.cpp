@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/mesh/creases.h"
+
 namespace subdivd::oracle {
 
 template <>
@@ -55,18 +57,14 @@ PointScale point_scale(std::span<const double> points, Index width, const Pace& 
 
 bool sharpness_rounds(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.crease_lengths.empty()) return false;
-  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
   std::vector<Index> edges(mesh.point_count(),
                            0);  // semi-sharp ones at every point; named twice, counted twice
-  Count point = 0, edge = 0;
-  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++point)
-    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++point, ++edge) {
-      pace.spend(1);
-      const float sharpness = mesh.crease_sharpnesses[per_crease ? crease : edge];
-      if (!(sharpness > 0) || sharpness >= kInfiniteSharpness) continue;
-      ++edges[mesh.crease_indices[point]];
-      ++edges[mesh.crease_indices[point + 1]];
-    }
+  for_each_crease_edge(mesh, [&](Count, Index a, Index b, float sharpness) {
+    pace.spend(1);
+    if (!(sharpness > 0) || sharpness >= kInfiniteSharpness) return;
+    ++edges[a];
+    ++edges[b];
+  });
   return std::any_of(edges.begin(), edges.end(), [](Index count) { return count >= 3; });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/all_finite.h"
 #include "core/base/precision.h"
 #include "core/splines/bezier.h"
 
@@ -13,10 +14,6 @@ namespace subdivd {
 namespace {
 
 constexpr std::size_t kMost = kMaxDegree + 1;
-
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
-}
 
 // --- Derivatives of the basis -----------------------------------------------------------------------------
 
@@ -144,7 +141,7 @@ Result<void> evaluate(const Spline& spline, double t, std::span<double> point) {
     combine(spline, span, values, stored);
     for (Index k = 0; k < spline.dimension(); ++k) point[k] = stored[k] / stored[spline.dimension()];
   }
-  if (!all_finite(point)) return does_not_fit();
+  if (!all_finite(std::span<const double>(point))) return does_not_fit();
   return {};
 }
 
@@ -164,7 +161,7 @@ Result<void> derivatives(const Spline& spline, double t, Index order, std::span<
     divide_by_weight(stored, spline.dimension(), order, rows);
   else
     std::ranges::copy(stored, rows.begin());
-  if (!all_finite(rows)) return does_not_fit();
+  if (!all_finite(std::span<const double>(rows))) return does_not_fit();
   return {};
 }
 

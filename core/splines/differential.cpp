@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/all_finite.h"
 #include "core/base/precision.h"
 #include "core/splines/bounds.h"
 #include "core/splines/bspline.h"
@@ -134,7 +135,7 @@ Result<std::vector<double>> derivative_noise(const Spline& spline, double t, Ind
   t = *check_parameter(spline, t);
   std::vector<double> noise = noise_of_sums(spline, t, order, 0, spline.dimension());
   if (spline.rational) divide_noise(spline, t, rows, noise);
-  if (!std::ranges::all_of(noise, [](double x) { return std::isfinite(x); })) return does_not_fit();
+  if (!all_finite(std::span<const double>(noise))) return does_not_fit();
   return noise;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/all_finite.h"
 #include "core/base/pace.h"
 #include "core/splines/knot_insertion.h"
 #include "core/splines/linked_knots.h"
@@ -76,7 +77,7 @@ Spline without_one(const Spline& spline, double t) {
 }
 
 bool is_sound(const Spline& spline) {
-  if (!std::ranges::all_of(spline.points, [](double x) { return std::isfinite(x); })) return false;
+  if (!all_finite(std::span<const double>(spline.points))) return false;
   if (!spline.rational) return true;
   for (Count i = 0; i < spline.point_count(); ++i)
     if (!(spline.point(i)[spline.dimension()] > 0)) return false;

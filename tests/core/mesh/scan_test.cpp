@@ -59,13 +59,13 @@ TEST(Scan, for_each_set_goes_through_what_is_not_zero_in_order) {
   EXPECT_EQ(met, set);
 }
 
-TEST(Scan, differences_vanish_for_finite_numbers_only) {
+TEST(Scan, finds_numbers_that_are_not_finite) {
   std::vector<double> values(100, std::numeric_limits<double>::max());
-  EXPECT_TRUE(all_finite(values));
+  EXPECT_TRUE(all_finite(std::span<const double>(values)));
   for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::quiet_NaN()}) {
     values[37] = bad;
-    EXPECT_FALSE(all_finite(values));
+    EXPECT_FALSE(all_finite(std::span<const double>(values)));
   }
 }
 
