@@ -23,6 +23,7 @@ bool all_below(std::span<const Real> values, Real limit) {
   return (carries & kSign) == 0;
 }
 
+// Neither NaN nor an infinity among them.
 template <std::floating_point Real>
 bool all_finite(std::span<const Real> values) {
   return all_below(values, std::numeric_limits<Real>::infinity());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/all_finite.h"
 #include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/mesh/creases.h"

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/all_finite.h"
 #include "core/mesh/scan.h"
 #include "proto/gltf/caps.h"
 #include "proto/gltf/polled_sort.h"

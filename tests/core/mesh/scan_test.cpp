@@ -31,6 +31,13 @@ TEST(Scan, all_below_is_exact_at_every_limit) {
   }
 }
 
+// A limit of the indices' own type once chose all_below() of core/base/all_finite, which knows numbers with a
+// sign bit: it took every index from 2^31 on for a small one.
+TEST(Scan, all_below_of_indices_takes_a_limit_of_their_own_type) {
+  const std::vector<Index> indices{0, kHalf + 1};
+  EXPECT_FALSE(all_below(std::span<const Index>(indices), Index{2}));
+}
+
 TEST(Scan, nothing_is_below_zero_but_no_index_at_all) {
   EXPECT_TRUE(all_below({}, 0));
   EXPECT_FALSE(all_below(std::vector<Index>{0}, 0));
