@@ -7,6 +7,7 @@
 
 #include "core/base/pace.h"
 #include "core/lattice/split.h"
+#include "core/mesh/creases.h"
 #include "core/mesh/edges.h"
 
 namespace subdivd::oracle {
@@ -30,15 +31,14 @@ Count channel_count(const ControlMesh& mesh) {
 }
 
 // Row v of the corners of the points, in the form that find_edges wants.
-Result<std::vector<Index>> corner_offsets(const ControlMesh& mesh, const Budget& budget) {
-  BudgetPoller poller(budget);
+std::vector<Index> corner_offsets(const ControlMesh& mesh, const Pace& pace) {
   std::vector<Index> offsets(mesh.point_count() + 1, 0);
   for (const Index v : mesh.face_vertex_indices) {
-    if (auto stop = poller.spend(1)) return *stop;
+    pace.spend(1);
     ++offsets[v + 1];
   }
   for (std::size_t v = 1; v < offsets.size(); ++v) {
-    if (auto stop = poller.spend(1)) return *stop;
+    pace.spend(1);
     offsets[v] += offsets[v - 1];
   }
   return offsets;
@@ -50,9 +50,8 @@ bool is_near(Index v, const Index* face) {
 
 class LoadFinder {
  public:
-  LoadFinder(const ControlMesh& mesh, const std::vector<Index>& offsets, const Edges& edges,
-             const Budget& budget)
-      : mesh_(mesh), offsets_(offsets), edges_(edges), poller_(budget), edges_of_(mesh.point_count(), 0) {
+  LoadFinder(const ControlMesh& mesh, const std::vector<Index>& offsets, const Edges& edges, const Pace& pace)
+      : mesh_(mesh), offsets_(offsets), edges_(edges), pace_(pace), edges_of_(mesh.point_count(), 0) {
     load_.points = mesh.point_count();
     load_.edges = edges.count();
     load_.faces = mesh.face_count();
@@ -60,26 +59,27 @@ class LoadFinder {
   }
 
   Result<FarLoad> run() {
-    for (const auto step : {&LoadFinder::count_edges, &LoadFinder::add_points, &LoadFinder::add_corners,
-                            &LoadFinder::add_creases, &LoadFinder::add_torn_edges})
-      if (auto done = (this->*step)(); !done) return done.error();
+    count_edges();
+    if (auto done = add_points(); !done) return done.error();
+    add_corners();
+    add_creases();
+    add_torn_edges();
     return load_;
   }
 
  private:
   Count faces_of(Index v) const { return Count{offsets_[v + 1]} - offsets_[v]; }
 
-  Result<void> count_edges() {
+  void count_edges() {
     for (const auto& ends : edges_.vertices) {
-      if (auto stop = poller_.spend(1)) return *stop;
+      pace_.spend(1);
       for (const Index v : ends) ++edges_of_[v];
     }
-    return {};
   }
 
   Result<void> add_points() {
     for (Index v = 0; v < load_.points; ++v) {
-      if (auto stop = poller_.spend(1)) return *stop;
+      pace_.spend(1);
       const Count faces = faces_of(v), edges = edges_of_[v];
       if (std::max(faces, edges) > kMostFacesOfAPoint)
         return Error{ErrorCode::unsupported,
@@ -99,48 +99,40 @@ class LoadFinder {
     return {};
   }
 
-  Result<void> add_corners() {
+  void add_corners() {
     const std::vector<Index>& corners = mesh_.face_vertex_indices;
     for (std::size_t h = 3; h < corners.size(); ++h) {
-      if (auto stop = poller_.spend(1)) return *stop;
+      pace_.spend(1);
       if (!is_near(corners[h], &corners[h / 3 * 3 - 3])) ++load_.distant_corners;
     }
-    return {};
   }
 
-  Result<void> add_creases() {
-    Count point = 0;
-    for (const Index length : mesh_.crease_lengths) {
-      for (Index k = 1; k < length; ++k, ++point) {
-        if (auto stop = poller_.spend(1)) return *stop;
-        ++load_.creases;
-        load_.crease_searches +=
-            std::min(edges_of_[mesh_.crease_indices[point]], edges_of_[mesh_.crease_indices[point + 1]]);
-      }
-      ++point;
-    }
-    return {};
+  void add_creases() {
+    for_each_crease_edge(mesh_, [&](Count, Index a, Index b, float) {
+      pace_.spend(1);
+      ++load_.creases;
+      load_.crease_searches += std::min(edges_of_[a], edges_of_[b]);
+    });
   }
 
-  Result<void> add_torn_edges() {
+  void add_torn_edges() {
     std::vector<Index> faces_of_edge(edges_.count(), 0);
     for (const Index e : edges_.of_half_edges) {
-      if (auto stop = poller_.spend(1)) return *stop;
+      pace_.spend(1);
       ++faces_of_edge[e];
     }
     for (const Index e : edges_.non_manifold) {
-      if (auto stop = poller_.spend(1)) return *stop;
+      pace_.spend(1);
       const Count faces = faces_of_edge[e];
       load_.most_faces_of_an_edge = std::max(load_.most_faces_of_an_edge, faces);
       if (faces > 2) load_.torn_searches += 3 * faces * faces * load_.face_varying_channels;
     }
-    return {};
   }
 
   const ControlMesh& mesh_;
   const std::vector<Index>& offsets_;
   const Edges& edges_;
-  BudgetPoller poller_;
+  const Pace& pace_;
   std::vector<Index> edges_of_;
   FarLoad load_;
 };
@@ -161,13 +153,12 @@ Error too_long(std::string message, Path where, Picoseconds time) {
 }  // namespace
 
 Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget) {
-  const auto offsets = corner_offsets(mesh, budget);
-  if (!offsets) return offsets.error();
-  const auto edges = stoppable(budget, [&](const Pace& pace) {
-    return find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, *offsets, pace);
+  return stoppable(budget, [&](const Pace& pace) {
+    const std::vector<Index> offsets = corner_offsets(mesh, pace);
+    const Edges edges =
+        find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, offsets, pace);
+    return LoadFinder(mesh, offsets, edges, pace).run();
   });
-  if (!edges) return edges.error();
-  return LoadFinder(mesh, *offsets, *edges, budget).run();
 }
 
 Picoseconds far_build_time(const FarLoad& load) {
