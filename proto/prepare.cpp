@@ -54,37 +54,37 @@ void warn_of_dropped(RefineRequest& request, std::size_t i, const json::FaceHist
 // Holes, and primvars with values for faces or corners, must fit the faces as they are given: rearranged with
 // the faces they would tell of other faults, or of none.
 Result<void> check_beside_faces(const ControlMesh& mesh, const Budget& budget) {
-  BudgetPoller poller(budget);
-  std::vector<bool> seen(mesh.face_count());
-  for (std::size_t k = 0; k < mesh.hole_indices.size(); ++k) {
-    if (auto stop = poller.spend(1)) return *stop;
-    const Index face = mesh.hole_indices[k];
-    const bool exists = face < seen.size();
-    if (exists && !seen[face]) {
-      seen[face] = true;
-      continue;
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    std::vector<bool> seen(mesh.face_count());
+    for (std::size_t k = 0; k < mesh.hole_indices.size(); ++k) {
+      pace.spend(1);
+      const Index face = mesh.hole_indices[k];
+      const bool exists = face < seen.size();
+      if (exists && !seen[face]) {
+        seen[face] = true;
+        continue;
+      }
+      return Error{
+          exists ? ErrorCode::duplicate_tag : ErrorCode::out_of_range,
+          "index " + std::to_string(face) +
+              (exists ? " is given twice" : " is past the " + std::to_string(seen.size()) + " faces"),
+          {"holeIndices", std::uint64_t{k}}};
     }
-    return Error{exists ? ErrorCode::duplicate_tag : ErrorCode::out_of_range,
-                 "index " + std::to_string(face) +
-                     (exists ? " is given twice" : " is past the " + std::to_string(seen.size()) + " faces"),
-                 {"holeIndices", std::uint64_t{k}},
-                 0,
-                 0};
-  }
-  for (const Primvar& primvar : mesh.primvars) {
-    const bool uniform = primvar.interpolation == Interpolation::uniform;
-    if (!uniform && primvar.interpolation != Interpolation::face_varying) continue;
-    const bool indexed = !primvar.indices.empty();
-    const Count expected = uniform ? mesh.face_count() : mesh.face_vertex_indices.size();
-    const Count given =
-        indexed ? primvar.indices.size() : primvar.values.size() / std::max<Index>(primvar.element_size, 1);
-    if (given == expected) continue;
-    return Error{ErrorCode::wrong_length,
-                 "holds " + std::to_string(given) + (indexed ? " indices" : " values") +
-                     "; this interpolation takes " + std::to_string(expected),
-                 {"primvars", primvar.name, indexed ? "indices" : "values"}};
-  }
-  return {};
+    for (const Primvar& primvar : mesh.primvars) {
+      const bool uniform = primvar.interpolation == Interpolation::uniform;
+      if (!uniform && primvar.interpolation != Interpolation::face_varying) continue;
+      const bool indexed = !primvar.indices.empty();
+      const Count expected = uniform ? mesh.face_count() : mesh.face_vertex_indices.size();
+      const Count given =
+          indexed ? primvar.indices.size() : primvar.values.size() / std::max<Index>(primvar.element_size, 1);
+      if (given == expected) continue;
+      return Error{ErrorCode::wrong_length,
+                   "holds " + std::to_string(given) + (indexed ? " indices" : " values") +
+                       "; this interpolation takes " + std::to_string(expected),
+                   {"primvars", primvar.name, indexed ? "indices" : "values"}};
+    }
+    return {};
+  });
 }
 
 // Bytes of new arrays while faces are rearranged into `faces` triangles: where they come from and, one after

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/pace.h"
 #include "core/curves/corner_cutting.h"
 #include "core/curves/four_point.h"
 #include "core/curves/lane_riesenfeld.h"
@@ -84,17 +85,17 @@ Result<void> check_points(const ControlCurves& curves, const Budget& budget) {
                  .where = {"points"},
                  .predicted = curves.point_count(),
                  .allowed = kMaxIndexCount};
-  BudgetPoller poller(budget);
-  for (Count k = 0; k < curves.points.size(); ++k) {
-    if (k % BudgetPoller::kInterval == 0)
-      if (auto stop = poller.spend(BudgetPoller::kInterval)) return *stop;
-    if (!std::isfinite(curves.points[k]))
-      return Error{ErrorCode::not_finite,
-                   "component " + std::to_string(k % curves.width) + " of point " +
-                       std::to_string(k / curves.width) + " is not a finite number",
-                   {"points", k}};
-  }
-  return {};
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (Count k = 0; k < curves.points.size(); ++k) {
+      if (k % Pace::kBlock == 0) pace.spend(Pace::kBlock);
+      if (!std::isfinite(curves.points[k]))
+        return Error{ErrorCode::not_finite,
+                     "component " + std::to_string(k % curves.width) + " of point " +
+                         std::to_string(k / curves.width) + " is not a finite number",
+                     {"points", k}};
+    }
+    return {};
+  });
 }
 
 }  // namespace
@@ -135,12 +136,15 @@ Result<void> ControlCurves::check(const Budget& budget) const {
     return {};
   }
   Count taken = 0;  // cannot wrap: fewer than 2^32 points each, and the list fits in memory
-  BudgetPoller poller(budget);
-  for (Count c = 0; c < vertex_counts.size(); ++c) {
-    if (auto stop = poller.spend(1)) return *stop;
-    if (vertex_counts[c] < needed) return too_few(*this, vertex_counts[c], {"curveVertexCounts", c});
-    taken += vertex_counts[c];
-  }
+  auto counted = stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (Count c = 0; c < vertex_counts.size(); ++c) {
+      pace.spend(1);
+      if (vertex_counts[c] < needed) return too_few(*this, vertex_counts[c], {"curveVertexCounts", c});
+      taken += vertex_counts[c];
+    }
+    return {};
+  });
+  if (!counted) return counted;
   if (taken != given)
     return Error{ErrorCode::wrong_length,
                  "the counts of curveVertexCounts add up to " + std::to_string(taken) + "; there are " +

@@ -204,13 +204,16 @@ std::vector<CurvePlace> curve_places(const ControlCurves& curves, const Pace& pa
 Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget) {
   const bool many = !curves.vertex_counts.empty();
   Count taken = 0;
-  BudgetPoller poller(budget);
-  for (Count c = 0; c < curves.curve_count(); ++c) {
-    if (auto stop = poller.spend(1)) return *stop;
-    const Path where = many ? Path{"curveVertexCounts", std::uint64_t{c}} : Path{"points"};
-    if (auto fine = check_count(curves, curves.points_of_curve(c), where); !fine) return fine;
-    taken += curves.points_of_curve(c);
-  }
+  auto counted = stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (Count c = 0; c < curves.curve_count(); ++c) {
+      pace.spend(1);
+      const Path where = many ? Path{"curveVertexCounts", std::uint64_t{c}} : Path{"points"};
+      if (auto fine = check_count(curves, curves.points_of_curve(c), where); !fine) return fine;
+      taken += curves.points_of_curve(c);
+    }
+    return {};
+  });
+  if (!counted) return counted;
   if (taken != curves.point_count())
     return fault(ErrorCode::wrong_length,
                  "the counts of curveVertexCounts add up to " + std::to_string(taken) + "; there are " +

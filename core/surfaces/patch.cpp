@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/surfaces/patch_rows.h"
 #include "core/surfaces/patch_rules.h"
@@ -50,17 +51,13 @@ struct Grid {
 
 // One step. Rows first, a new row at a time: no grid is ever half refined.
 template <class Real>
-std::optional<Error> subdivide(const Grid<Real>& from, Grid<Real>& to, BudgetPoller& poller) {
+void subdivide(const Grid<Real>& from, Grid<Real>& to, const Pace& pace) {
   to.points.resize(to.row_size() * to.v.n);
   Buffer<Real> row(from.row_size());
   for (Count j = 0; j < to.v.n; ++j) {
-    if (auto stop =
-            combine_rows(from.points.data(), from.row_size(), step_taps(from.v, j), row.data(), poller))
-      return stop;
-    if (auto stop = split_row(from.u, row.data(), to.width, &to.points[j * to.row_size()], poller))
-      return stop;
+    combine_rows(from.points.data(), from.row_size(), step_taps(from.v, j), row.data(), pace);
+    split_row(from.u, row.data(), to.width, &to.points[j * to.row_size()], pace);
   }
-  return std::nullopt;
 }
 
 // --- Frames -----------------------------------------------------------------------------------------------
@@ -73,12 +70,12 @@ struct FrameRow {
 
 template <class Real>
 Result<void> append_normals(const FrameRow<Real>& row, Count count, Index level, Real* normals,
-                            BudgetPoller& poller) {
+                            const Pace& pace) {
   // Tangents that nobody sees must exist as well: without them there would be a normal of no meaning.
   for (const Real* tangents : {row.du, row.dv})
-    if (auto finite = check_finite(std::span(tangents, 3 * count), poller); !finite) return finite;
+    if (auto finite = check_finite(std::span(tangents, 3 * count), pace); !finite) return finite;
   for (Count i = 0; i < count; ++i) {
-    if (auto stop = poller.spend(3)) return *stop;
+    pace.spend(3);
     const auto normal = normal_of<Real>(row.point + 3 * i, row.du + 3 * i, row.dv + 3 * i, level);
     std::copy_n(normal.data(), 3, normals + 3 * i);
   }
@@ -88,7 +85,7 @@ Result<void> append_normals(const FrameRow<Real>& row, Count count, Index level,
 // Limit points, tangents and normals, what is asked for of them.
 template <class Real>
 Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, RefinedPatch<Real>& out,
-                           BudgetPoller& poller) {
+                           const Pace& pace) {
   const Index width = grid.width;
   const Count points = grid.u.n * grid.v.n, size = grid.row_size();
   const Real scale = static_cast<Real>(Count{1} << options.level);
@@ -103,20 +100,20 @@ Result<void> append_frames(const Grid<Real>& grid, const PatchOptions& options, 
                                 options.tangents ? &out.du[j * size] : du.data(),
                                 options.tangents ? &out.dv[j * size] : dv.data()};
     const auto across = [&](const Taps& taps, Buffer<Real>& to) {
-      return combine_rows(grid.points.data(), size, taps, to.data(), poller);
+      combine_rows(grid.points.data(), size, taps, to.data(), pace);
     };
     const auto along = [&](const Buffer<Real>& from, RowRule rule, Real factor, Real* to) {
-      return combine_along(grid.u, from.data(), width, rule, factor, to, poller);
+      combine_along(grid.u, from.data(), width, rule, factor, to, pace);
     };
-    if (auto stop = across(limit_taps(grid.v, j), limits)) return *stop;
-    if (auto stop = along(limits, limit_taps, Real(1), row.point)) return *stop;
+    across(limit_taps(grid.v, j), limits);
+    along(limits, limit_taps, Real(1), row.point);
     if (!tangents) continue;
-    if (auto stop = across(tangent_taps(grid.v, j), slopes)) return *stop;
-    if (auto stop = along(limits, tangent_taps, scale, row.du)) return *stop;
-    if (auto stop = along(slopes, limit_taps, scale, row.dv)) return *stop;
+    across(tangent_taps(grid.v, j), slopes);
+    along(limits, tangent_taps, scale, row.du);
+    along(slopes, limit_taps, scale, row.dv);
     if (!options.normals) continue;
     Real* normals = &out.normals[j * grid.u.n * 3];
-    if (auto done = append_normals(row, grid.u.n, options.level, normals, poller); !done) return done;
+    if (auto done = append_normals(row, grid.u.n, options.level, normals, pace); !done) return done;
   }
   return {};
 }
@@ -142,37 +139,35 @@ Index* add_quad(Index a, Index b, Index c, Index d, Index* to) {
 }
 
 template <PatchFaces kFaces>
-std::optional<Error> append_quads(Direction u, Direction v, Index* to, BudgetPoller& poller) {
+void append_quads(Direction u, Direction v, Index* to, const Pace& pace) {
   const Count last = u.n - 1;
   for (Count j = 0; j < v.segments(); ++j) {
     const Index row = static_cast<Index>(j * u.n), next = static_cast<Index>(v.after(j) * u.n);
-    for (Count begin = 0; begin < last; begin += BudgetPoller::kInterval) {
-      const auto end = static_cast<Index>(std::min(begin + BudgetPoller::kInterval, last));
-      if (auto stop = poller.spend(4 * (end - begin))) return stop;
+    for (Count begin = 0; begin < last; begin += Pace::kBlock) {
+      const auto end = static_cast<Index>(std::min(begin + Pace::kBlock, last));
+      pace.spend(4 * (end - begin));
       for (auto i = static_cast<Index>(begin); i < end; ++i)
         to = add_quad<kFaces>(row + i, row + i + 1, next + i + 1, next + i, to);
     }
     const auto close = static_cast<Index>(last);
     if (!u.open()) to = add_quad<kFaces>(row + close, row, next, next + close, to);
   }
-  return std::nullopt;
 }
 
-std::optional<Error> append_faces(Direction u, Direction v, PatchFaces faces, Buffer<Index>& out,
-                                  BudgetPoller& poller) {
+void append_faces(Direction u, Direction v, PatchFaces faces, Buffer<Index>& out, const Pace& pace) {
   out.resize(corner_count(u, v, faces));
-  if (faces == PatchFaces::quads) return append_quads<PatchFaces::quads>(u, v, out.data(), poller);
-  return append_quads<PatchFaces::triangles>(u, v, out.data(), poller);
+  if (faces == PatchFaces::quads) return append_quads<PatchFaces::quads>(u, v, out.data(), pace);
+  append_quads<PatchFaces::triangles>(u, v, out.data(), pace);
 }
 
 // --- Everything together ----------------------------------------------------------------------------------
 
 template <class Real>
-Result<Grid<Real>> grid_of(const ControlPatch& patch, BudgetPoller& poller) {
+Result<Grid<Real>> grid_of(const ControlPatch& patch, const Pace& pace) {
   Grid<Real> grid{u_of(patch), v_of(patch), patch.width, Buffer<Real>(patch.points.size())};
-  for (Count begin = 0; begin < patch.points.size(); begin += BudgetPoller::kInterval) {
-    const Count count = std::min<Count>(BudgetPoller::kInterval, patch.points.size() - begin);
-    if (auto stop = poller.spend(count)) return *stop;
+  for (Count begin = 0; begin < patch.points.size(); begin += Pace::kBlock) {
+    const Count count = std::min<Count>(Pace::kBlock, patch.points.size() - begin);
+    pace.spend(count);
     const std::span<const double> from = std::span(patch.points).subspan(begin, count);
     for (const double x : from)
       if (!(std::abs(x) <= static_cast<double>(std::numeric_limits<Real>::max()))) return does_not_fit();
@@ -224,17 +219,17 @@ Result<void> ControlPatch::check(const Budget& budget) const {
                      std::to_string(width) + " components are " + std::to_string(count * width) +
                      " numbers; there are " + std::to_string(points.size()),
                  {"points"}};
-  BudgetPoller poller(budget);
-  for (Count k = 0; k < points.size(); ++k) {
-    if (k % BudgetPoller::kInterval == 0)
-      if (auto stop = poller.spend(BudgetPoller::kInterval)) return *stop;
-    if (!std::isfinite(points[k]))
-      return Error{ErrorCode::not_finite,
-                   "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
-                       " is not a finite number",
-                   {"points", k}};
-  }
-  return {};
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (Count k = 0; k < points.size(); ++k) {
+      if (k % Pace::kBlock == 0) pace.spend(Pace::kBlock);
+      if (!std::isfinite(points[k]))
+        return Error{ErrorCode::not_finite,
+                     "component " + std::to_string(k % width) + " of point " + std::to_string(k / width) +
+                         " is not a finite number",
+                     {"points", k}};
+    }
+    return {};
+  });
 }
 
 Count refined_grid_count(CurveWrap wrap, Index degree, Count n, Index level) {
@@ -284,33 +279,33 @@ Result<RefinedPatch<Real>> refine(const ControlPatch& patch, const PatchOptions&
   const Result<Count> bytes = predict_bytes<Real>(patch, options);
   if (!bytes) return bytes.error();
   if (auto allowed = budget.check_bytes(*bytes); !allowed) return allowed.error();
-  BudgetPoller poller(budget);
-  Result<Grid<Real>> start = grid_of<Real>(patch, poller);
-  if (!start) return start.error();
-  Grid<Real> grid = std::move(*start);
-  for (Index l = 0; l < options.level; ++l) {
-    Grid<Real> next{refined(grid.u, 1), refined(grid.v, 1), grid.width, {}};
-    if (auto stop = subdivide(grid, next, poller)) return *stop;
-    grid = std::move(next);
-  }
+  return stoppable(budget, [&](const Pace& pace) -> Result<RefinedPatch<Real>> {
+    Result<Grid<Real>> start = grid_of<Real>(patch, pace);
+    if (!start) return start.error();
+    Grid<Real> grid = std::move(*start);
+    for (Index l = 0; l < options.level; ++l) {
+      Grid<Real> next{refined(grid.u, 1), refined(grid.v, 1), grid.width, {}};
+      subdivide(grid, next, pace);
+      grid = std::move(next);
+    }
 
-  RefinedPatch<Real> out;
-  out.name = patch.name;
-  out.level = options.level;
-  out.width = patch.width;
-  out.u_count = static_cast<Index>(grid.u.n);
-  out.v_count = static_cast<Index>(grid.v.n);
-  out.u_wrap = patch.u_wrap;
-  out.v_wrap = patch.v_wrap;
-  out.corners_per_face = corners_of(options.faces);
-  if (options.limit || options.tangents || options.normals)
-    if (auto done = append_frames(grid, options, out, poller); !done) return std::move(done).error();
-  if (options.faces != PatchFaces::none)
-    if (auto stop = append_faces(grid.u, grid.v, options.faces, out.faces, poller)) return *stop;
-  out.points = std::move(grid.points);
-  for (const Buffer<Real>* values : {&out.points, &out.limit_points, &out.du, &out.dv, &out.normals})
-    if (auto finite = check_finite(std::span<const Real>(*values), poller); !finite) return finite.error();
-  return out;
+    RefinedPatch<Real> out;
+    out.name = patch.name;
+    out.level = options.level;
+    out.width = patch.width;
+    out.u_count = static_cast<Index>(grid.u.n);
+    out.v_count = static_cast<Index>(grid.v.n);
+    out.u_wrap = patch.u_wrap;
+    out.v_wrap = patch.v_wrap;
+    out.corners_per_face = corners_of(options.faces);
+    if (options.limit || options.tangents || options.normals)
+      if (auto done = append_frames(grid, options, out, pace); !done) return std::move(done).error();
+    if (options.faces != PatchFaces::none) append_faces(grid.u, grid.v, options.faces, out.faces, pace);
+    out.points = std::move(grid.points);
+    for (const Buffer<Real>* values : {&out.points, &out.limit_points, &out.du, &out.dv, &out.normals})
+      if (auto finite = check_finite(std::span<const Real>(*values), pace); !finite) return finite.error();
+    return out;
+  });
 }
 
 template Result<Count> predict_bytes<float>(const ControlPatch&, const PatchOptions&);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/pace.h"
 #include "proto/curve_task.h"
 #include "proto/json/json.h"
 #include "proto/json/text_writer.h"
@@ -288,30 +289,31 @@ namespace {
 
 // Points alone: orders, knots and weights are doubles always.
 Result<RefineAnswer<float>> in_single(RefineAnswer<double> answer, const Budget& budget) {
-  RefineAnswer<float> single;
-  BudgetPoller poller(budget);
-  for (RefinedCurves<double>& from : answer.curves) {
-    RefinedCurves<float> to;
-    to.name = std::move(from.name);
-    to.level = from.level;
-    to.width = from.width;
-    to.vertex_counts = std::move(from.vertex_counts);
-    to.wrap = from.wrap;
-    to.basis = from.basis;
-    to.degree = from.degree;
-    to.tension = from.tension;
-    to.ratio = from.ratio;
-    to.orders = std::move(from.orders);
-    to.knots = std::move(from.knots);
-    to.weights = std::move(from.weights);
-    to.points.reserve(from.points.size());
-    for (const double value : from.points) {
-      if (auto stop = poller.spend(1)) return *stop;
-      to.points.push_back(static_cast<float>(value));
+  return stoppable(budget, [&](const Pace& pace) {
+    RefineAnswer<float> single;
+    for (RefinedCurves<double>& from : answer.curves) {
+      RefinedCurves<float> to;
+      to.name = std::move(from.name);
+      to.level = from.level;
+      to.width = from.width;
+      to.vertex_counts = std::move(from.vertex_counts);
+      to.wrap = from.wrap;
+      to.basis = from.basis;
+      to.degree = from.degree;
+      to.tension = from.tension;
+      to.ratio = from.ratio;
+      to.orders = std::move(from.orders);
+      to.knots = std::move(from.knots);
+      to.weights = std::move(from.weights);
+      to.points.reserve(from.points.size());
+      for (const double value : from.points) {
+        pace.spend(1);
+        to.points.push_back(static_cast<float>(value));
+      }
+      single.curves.push_back(std::move(to));
     }
-    single.curves.push_back(std::move(to));
-  }
-  return single;
+    return single;
+  });
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ std::vector<Real> tapped(const std::vector<Real>& row, Index width, Count count,
 
 template <class Real>
 void expect_rows_by_taps() {
-  const Budget budget;
-  BudgetPoller poller(budget);
+  const Pace pace;
   for (const CurveWrap wrap : {CurveWrap::nonperiodic, CurveWrap::periodic, CurveWrap::pinned})
     for (const Index degree : {2u, 3u})
       for (const Index width : {1u, 2u, 3u, 4u, 5u, 16u})
@@ -42,12 +41,12 @@ void expect_rows_by_taps() {
           for (Real& x : row) x = static_cast<Real>(random.centred());
           const Count children = refined_grid_count(wrap, degree, n, 1);
           std::vector<Real> split(children * width);
-          ASSERT_FALSE(split_row(d, row.data(), width, split.data(), poller));
+          split_row(d, row.data(), width, split.data(), pace);
           ASSERT_EQ(split, tapped(
                                row, width, children, [&](Count i) { return step_taps(d, i); }, Real(1)));
           for (const RowRule rule : {limit_taps, tangent_taps}) {
             std::vector<Real> along(row.size());
-            ASSERT_FALSE(combine_along(d, row.data(), width, rule, Real(8), along.data(), poller));
+            combine_along(d, row.data(), width, rule, Real(8), along.data(), pace);
             ASSERT_EQ(along, tapped(
                                  row, width, n, [&](Count i) { return rule(d, i); }, Real(8)));
           }
@@ -67,12 +66,13 @@ TEST(PatchRows, stop_when_nobody_waits_any_more) {
   const std::vector<double> row(9001);
   std::vector<double> out(2 * row.size());
   for (int loop = 0; loop < 3; ++loop) {
-    BudgetPoller poller(budget);
-    const auto stopped = loop == 0   ? split_row(d, row.data(), 1, out.data(), poller)
-                         : loop == 1 ? combine_along(d, row.data(), 1, limit_taps, 1.0, out.data(), poller)
-                                     : combine_rows(row.data(), 3000, limit_taps(d, 1), out.data(), poller);
-    ASSERT_TRUE(stopped);
-    EXPECT_EQ(stopped->code, ErrorCode::cancelled);
+    const auto stopped = stoppable(budget, [&](const Pace& pace) {
+      if (loop == 0) split_row(d, row.data(), 1, out.data(), pace);
+      if (loop == 1) combine_along(d, row.data(), 1, limit_taps, 1.0, out.data(), pace);
+      if (loop == 2) combine_rows(row.data(), 3000, limit_taps(d, 1), out.data(), pace);
+    });
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
   }
 }
 
