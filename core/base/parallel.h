@@ -106,14 +106,17 @@ class Team {
     Parts(Team& team, Work& work) : team_(team), work_(work) {}
     void run(Index k) override {
       count_.wait(0);
-      team_.guarded(work_, Worker(team_, k, count_));
+      if (count_ != kAbandoned) team_.guarded(work_, Worker(team_, k, count_));
     }
     void begin(Index count) {
       count_ = count;
       count_.notify_all();
     }
+    // Whoever has been started returns.
+    void abandon() { begin(kAbandoned); }
 
    private:
+    static constexpr Index kAbandoned = kNoIndex;
     Team& team_;
     Work& work_;
     std::atomic<Index> count_{0};
@@ -125,7 +128,13 @@ class Team {
     MadeThreads made;
     Helpers& helpers = budget_.helpers != nullptr ? *budget_.helpers : static_cast<Helpers&>(made);
     const Index others = threads > 1 ? helpers.start(threads - 1, parts) : 0;
-    barrier_.emplace(others + 1);
+    try {
+      barrier_.emplace(others + 1);  // which takes memory
+    } catch (...) {
+      parts.abandon();
+      if (others > 0) helpers.finish(parts);
+      throw;
+    }
     parts.begin(others + 1);
     parts.run(0);
     if (others > 0) helpers.finish(parts);
