@@ -27,6 +27,8 @@ constexpr int kArenas = 2;
 // that it has seen: a scan of 120,000 triangles faults 2,300 pages in again with every request, and takes
 // 20 ms instead of 14. 32 MiB is the most that it allows.
 constexpr std::uint64_t kMostMmapThreshold = std::uint64_t{32} << 20;
+// Below glibc's own values every other block would be a mapping of its own, however little memory there is.
+constexpr std::uint64_t kLeastThreshold = std::uint64_t{128} << 10;
 
 }  // namespace
 
@@ -35,8 +37,8 @@ void tune_allocator(std::uint64_t kept, [[maybe_unused]] std::uint64_t ceiling) 
     ::mallopt(name, static_cast<int>(std::min<std::uint64_t>(bytes, std::numeric_limits<int>::max())));
   };
   ::mallopt(M_ARENA_MAX, kArenas);
-  option(M_MMAP_THRESHOLD, std::min(kept / 8, kMostMmapThreshold));
-  option(M_TRIM_THRESHOLD, kept / 4);
+  option(M_MMAP_THRESHOLD, std::clamp(kept / 8, kLeastThreshold, kMostMmapThreshold));
+  option(M_TRIM_THRESHOLD, std::max(kept / 4, kLeastThreshold));
 #ifndef __SANITIZE_ADDRESS__  // it would not see who uses what was freed
   large_blocks::keep({kept, ceiling});
 #endif
