@@ -99,6 +99,18 @@ Result<proto::RefineRequest> decode_curves(const Request& request, const proto::
   return std::move(decoded->curves);
 }
 
+// Decodes a body and does its task.
+template <class Decode, class Task>
+Result<Response> computed(Decode&& decode, Task&& task) {
+  Phases phases;
+  const auto decoded = decode();
+  if (!decoded) return decoded.error();
+  phases.end("read");
+  auto payload = task(*decoded, phases);
+  if (!payload) return std::move(payload).error();
+  return payload_response(*std::move(payload), phases);
+}
+
 }  // namespace
 
 GeometryHandlers::GeometryHandlers(const Config& config, Grants& grants, Helpers& helpers)
@@ -157,14 +169,10 @@ Response GeometryHandlers::refine(Request& request) {
 
 Response GeometryHandlers::verify(Request& request) {
   if (!accepts_json(request)) return not_acceptable("application/json");
-  return granted(request, [&](const Budget& budget) -> Result<Response> {
-    Phases phases;
-    const auto decoded = decode_any(request, limits_, budget);
-    if (!decoded) return decoded.error();
-    phases.end("read");
-    auto payload = tasks::verify(*decoded, limits_, budget, phases);
-    if (!payload) return std::move(payload).error();
-    return payload_response(*std::move(payload), phases);
+  return granted(request, [&](const Budget& budget) {
+    return computed(
+        [&] { return decode_any(request, limits_, budget); },
+        [&](const auto& decoded, Phases& phases) { return tasks::verify(decoded, limits_, budget, phases); });
   });
 }
 
@@ -173,14 +181,11 @@ Response GeometryHandlers::curves(Request& request, proto::CurveTaskKind kind) {
   if (kind == proto::CurveTaskKind::refine)
     return granted(request, [&](const Budget& budget) { return refined(request, decode_curves, budget); });
   if (!accepts_json(request)) return not_acceptable("application/json");
-  return granted(request, [&](const Budget& budget) -> Result<Response> {
-    Phases phases;
-    const auto decoded = proto::decode_curves(request.body, kind, request.query, limits_, budget);
-    if (!decoded) return decoded.error();
-    phases.end("read");
-    auto payload = tasks::answer_curves(*decoded, limits_, budget, phases);
-    if (!payload) return std::move(payload).error();
-    return payload_response(*std::move(payload), phases);
+  return granted(request, [&](const Budget& budget) {
+    return computed([&] { return proto::decode_curves(request.body, kind, request.query, limits_, budget); },
+                    [&](const auto& decoded, Phases& phases) {
+                      return tasks::answer_curves(decoded, limits_, budget, phases);
+                    });
   });
 }
 
