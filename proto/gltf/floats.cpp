@@ -15,7 +15,7 @@ namespace {
 
 constexpr Count kPiece = Count{1} << 14;  // tuples between two looks at the clock
 // Tuples that one thread goes through while another would wake up.
-constexpr Count kWorthSharing = Count{1} << 16;
+constexpr Count kWorthSharing = Count{1} << 18;
 
 Index thread_count(Count total, const Budget& budget) {
   return total < kWorthSharing || budget.helpers == nullptr ? 1 : 1 + budget.helpers->most();

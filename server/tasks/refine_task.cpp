@@ -16,9 +16,14 @@
 namespace subdivd::server::tasks {
 namespace {
 
-RefineOptions mesh_options(const proto::RefineRequest& request, const Budget& budget) {
+// Waking a helper takes as long as refining some ten thousand points, and every array is shared anew: below
+// this one thread is done sooner.
+constexpr Count kPointsWorthHelp = Count{1} << 18;
+
+RefineOptions mesh_options(const proto::RefineRequest& request, const Plan& plan, const Budget& budget) {
   RefineOptions options = proto::mesh_options(request);
-  if (budget.helpers != nullptr) options.threads = 1 + budget.helpers->most();
+  if (budget.helpers != nullptr && plan.counts(options.level).vertices >= kPointsWorthHelp)
+    options.threads = 1 + budget.helpers->most();
   return options;
 }
 
@@ -27,7 +32,8 @@ Result<proto::RefineAnswer<Real>> refine_all(const proto::RefineRequest& request
                                              const std::vector<Plan>& plans, const Budget& budget) {
   proto::RefineAnswer<Real> answer;
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto refined = subdivd::refine<Real>(request.meshes[i], plans[i], mesh_options(request, budget), budget);
+    auto refined =
+        subdivd::refine<Real>(request.meshes[i], plans[i], mesh_options(request, plans[i], budget), budget);
     if (!refined) return proto::blame_input(request, std::move(refined).error(), "meshes", i);
     answer.meshes.push_back(std::move(refined).value());
   }
@@ -52,7 +58,8 @@ Result<oracle::Report> verify_all(const proto::RefineRequest& request, const std
   oracle::Report report;
   report.oracle = oracle::oracle_name();
   for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-    auto verified = oracle::verify<Real>(request.meshes[i], plans[i], mesh_options(request, budget), budget);
+    auto verified =
+        oracle::verify<Real>(request.meshes[i], plans[i], mesh_options(request, plans[i], budget), budget);
     if (!verified) return proto::blame_input(request, std::move(verified).error(), "meshes", i);
     report.meshes.push_back(std::move(verified).value());
   }
