@@ -23,8 +23,9 @@ float SemiSharp::vertex(Index v) const {
   return at == vertices.size() ? 0.0f : vertex_sharpness[at];
 }
 
-Net Net::build(const AnyScheme& scheme, CreaseMethod method, std::shared_ptr<const Topology> topology,
-               Sharpness sharpness, Index max_level, const Pace& pace) {
+Net Net::build(const AnyScheme& scheme, CreaseMethod method,
+               std::shared_ptr<const Topology<Triangles>> topology, Sharpness sharpness, Index max_level,
+               const Pace& pace) {
   Net net;
   net.scheme_ = scheme;
   net.method_ = method;
@@ -58,7 +59,7 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
   };
   std::vector<Pair> pairs;
   SemiSharp base;
-  const auto side = [](const Topology& topology, Index h) {
+  const auto side = [](const Topology<Triangles>& topology, Index h) {
     return topology.edge_vertices(topology.half_edge_edge(h))[0] == topology.corner_vertex(h);
   };
   base.edges = std::move(net.semi_sharp_edges_);

@@ -51,14 +51,15 @@ inline Count chaikin_bytes(Count edges, Index max_level) {
 class Net {
  public:
   // Of the mesh.
-  static Net build(const AnyScheme& scheme, CreaseMethod method, std::shared_ptr<const Topology> topology,
-                   Sharpness sharpness, Index max_level, const Pace& pace);
+  static Net build(const AnyScheme& scheme, CreaseMethod method,
+                   std::shared_ptr<const Topology<Triangles>> topology, Sharpness sharpness, Index max_level,
+                   const Pace& pace);
   // Of a channel of it, whose semi-sharp edges decay with the mesh's.
   static Net build(std::shared_ptr<const Net> mesh, Channel channel, const Pace& pace);
 
-  const Topology& topology() const { return *topology_; }
+  const Topology<Triangles>& topology() const { return *topology_; }
   // The same, to be kept: nets and render meshes that connect alike share it.
-  const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
+  const std::shared_ptr<const Topology<Triangles>>& shared_topology() const { return topology_; }
   const Sharpness& sharpness() const { return sharpness_; }
   const AnyScheme& scheme() const { return scheme_; }
   CreaseMethod crease_method() const { return method_; }
@@ -113,7 +114,7 @@ class Net {
   CreaseMethod method_ = CreaseMethod::uniform;
   Index max_level_ = 0;
   bool linear_ = false;
-  std::shared_ptr<const Topology> topology_;
+  std::shared_ptr<const Topology<Triangles>> topology_;
   Sharpness sharpness_;
   std::vector<Index> value_indices_;
   std::vector<VertexRule> vertex_rules_;

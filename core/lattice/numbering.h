@@ -11,7 +11,7 @@ namespace subdivd {
 
 class Numbering {
  public:
-  Numbering(const Connectivity& connectivity, Index level)
+  Numbering(const Connectivity<Triangles>& connectivity, Index level)
       : connectivity_(&connectivity),
         n_(segments(level)),
         edge_begin_(connectivity.vertex_count()),
@@ -76,13 +76,13 @@ class Numbering {
   Index on_edge(Index face, Index corner, Count k) const {
     const Index h = 3 * face + corner;
     if (k == 0) return connectivity_->corner_vertex(h);
-    if (k == n_) return connectivity_->corner_vertex(Connectivity::next(h));
+    if (k == n_) return connectivity_->corner_vertex(Triangles::next(h));
     const Index e = connectivity_->half_edge_edge(h);
     const Count from_low = connectivity_->edge_vertices(e)[0] == connectivity_->corner_vertex(h) ? k : n_ - k;
     return static_cast<Index>(edge_begin_ + e * (n_ - 1) + from_low - 1);
   }
 
-  const Connectivity* connectivity_;
+  const Connectivity<Triangles>* connectivity_;
   Count n_, edge_begin_, face_begin_;
 };
 
@@ -91,13 +91,13 @@ class Numbering {
 struct FaceNumbers {
   Index corner[3], side[3], step[3], inside;
 
-  FaceNumbers(const Connectivity& connectivity, Count n, Index face) {
+  FaceNumbers(const Connectivity<Triangles>& connectivity, Count n, Index face) {
     const Index edge_begin = connectivity.vertex_count();
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * face + k;
       corner[k] = connectivity.corner_vertex(h);
       const Index first = static_cast<Index>(edge_begin + Count{connectivity.half_edge_edge(h)} * (n - 1));
-      const bool forward = corner[k] < connectivity.corner_vertex(Connectivity::next(h));
+      const bool forward = corner[k] < connectivity.corner_vertex(Triangles::next(h));
       side[k] = forward ? first : static_cast<Index>(first + n - 2);
       step[k] = forward ? 1 : static_cast<Index>(-1);
     }

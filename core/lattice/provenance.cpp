@@ -6,7 +6,7 @@
 
 namespace subdivd {
 
-void write_provenance(const Connectivity& connectivity, Index level, std::span<Provenance> out,
+void write_provenance(const Connectivity<Triangles>& connectivity, Index level, std::span<Provenance> out,
                       const Pace& pace) {
   const Numbering numbering(connectivity, level);
   const Count n = numbering.segment_count();

@@ -16,7 +16,7 @@ struct Provenance {
 };
 
 // Of every refined vertex in turn: Numbering(connectivity, level).vertex_count() places into `out`.
-void write_provenance(const Connectivity& connectivity, Index level, std::span<Provenance> out,
+void write_provenance(const Connectivity<Triangles>& connectivity, Index level, std::span<Provenance> out,
                       const Pace& pace);
 
 // The base face of every refined triangle in turn, in the order of write_triangles: n^2 numbers for each face

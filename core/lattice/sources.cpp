@@ -4,8 +4,9 @@
 
 namespace subdivd {
 
-Buffer<Index> vertex_sources(const Connectivity& part, const Connectivity& whole, Index first_face,
-                             Index level, std::span<const unsigned char> holes, const Pace& pace) {
+Buffer<Index> vertex_sources(const Connectivity<Triangles>& part, const Connectivity<Triangles>& whole,
+                             Index first_face, Index level, std::span<const unsigned char> holes,
+                             const Pace& pace) {
   const Count n = segments(level);
   Buffer<Index> sources;
   pace.fill(sources, Numbering(part, level).vertex_count(), kNoIndex);

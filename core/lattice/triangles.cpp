@@ -30,7 +30,7 @@ constexpr auto pattern() {
 
 class FaceWriter {
  public:
-  FaceWriter(const Connectivity& connectivity, Index level, const Pace& pace)
+  FaceWriter(const Connectivity<Triangles>& connectivity, Index level, const Pace& pace)
       : connectivity_(connectivity), n_(segments(level)), pace_(pace) {}
 
   void write(Index face, Index* out) {
@@ -49,7 +49,7 @@ class FaceWriter {
  private:
   // One point an edge: it makes no difference from which end they count.
   void write_four(Index face, Index* out) const {
-    const Index *v = connectivity_.triangles().data() + Count{3} * face,
+    const Index *v = connectivity_.corner_vertices().data() + Count{3} * face,
                 *e = connectivity_.half_edge_edges().data() + Count{3} * face,
                 first = connectivity_.vertex_count();
     const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0],
@@ -155,7 +155,7 @@ class FaceWriter {
     return out - 6 * ((kRun - count % kRun) % kRun);
   }
 
-  const Connectivity& connectivity_;
+  const Connectivity<Triangles>& connectivity_;
   Count n_;
   const Pace& pace_;
 };
@@ -164,7 +164,7 @@ constexpr Count kWorthSharing = 1 << 16;  // indices: starting a thread takes as
 
 }  // namespace
 
-Result<void> write_triangles(const Connectivity& connectivity, Index level,
+Result<void> write_triangles(const Connectivity<Triangles>& connectivity, Index level,
                              std::span<const unsigned char> holes, Index* out, Index threads,
                              const Budget& budget) {
   const Count per_face = 3 * segments(level) * segments(level);

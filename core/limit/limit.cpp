@@ -87,28 +87,28 @@ bool set_normal(Frame<Real>& frame) {
 }
 
 template <class Real>
-void Ring<Real>::set_faces(const Topology& topology, Index v, const Pace& pace) {
+void Ring<Real>::set_faces(const Topology<Triangles>& topology, Index v, const Pace& pace) {
   const Positions in_ring(topology.vertex_edges(v), pace);
   auto position = [&](Index h) { return static_cast<Index>(in_ring(topology.half_edge_edge(h))); };
   for (Index h : topology.vertex_corners(v)) {
     pace.spend(16);
-    wedges.push_back({position(h), position(Topology::prev(h))});
+    wedges.push_back({position(h), position(Triangles::prev(h))});
   }
   auto passable = [&](Index e) {
     pace.spend(8);
     return !is_infinite(edge_sharpness[in_ring(e)]);
   };
-  const Topology::Fans fans = topology.fans(v, passable, pace);
+  const Topology<Triangles>::Fans fans = topology.fans(v, passable, pace);
   sector_edges.reserve(wedges.size() + fans.size());
   const auto size = [&] { return static_cast<Index>(sector_edges.size()); };
   for (std::size_t k = 0; k < fans.size(); ++k) {
-    const Topology::Fan fan = fans[k];
+    const Topology<Triangles>::Fan fan = fans[k];
     Sector sector{size(), 0, fan.closed};
     for (Index h : fan.corners) {
       pace.spend(8);
       sector_edges.push_back(position(h));
     }
-    if (!fan.closed) sector_edges.push_back(position(Topology::prev(fan.corners.back())));
+    if (!fan.closed) sector_edges.push_back(position(Triangles::prev(fan.corners.back())));
     sector.end = size();
     sectors.push_back(sector);
   }

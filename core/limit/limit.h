@@ -47,7 +47,7 @@ struct Ring {
   std::vector<Sector> sectors;
 
   // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
-  void set_faces(const Topology& topology, Index v, const Pace& pace = {});
+  void set_faces(const Topology<Triangles>& topology, Index v, const Pace& pace = {});
 };
 
 // A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see

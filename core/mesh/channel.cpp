@@ -10,7 +10,7 @@ namespace subdivd {
 namespace {
 
 // Channel vertices of the corners, and the value of each channel vertex.
-void number_vertices(const Topology& base, std::span<const Index> vertices,
+void number_vertices(const Topology<Triangles>& base, std::span<const Index> vertices,
                      std::span<const Index> corner_values, Index value_count, std::vector<Index>& corners,
                      std::vector<Index>& values, const Pace& pace) {
   // Per value: the first point that uses it; the last one that uses it as well, and its channel vertex there.
@@ -47,7 +47,7 @@ struct Span {
 
 class Rules {
  public:
-  Rules(const ControlMesh& mesh, CreaseMethod crease_method, const Topology& base,
+  Rules(const ControlMesh& mesh, CreaseMethod crease_method, const Topology<Triangles>& base,
         const Sharpness& base_sharpness, Channel& channel, const Pace& pace)
       : mesh_(mesh),
         crease_method_(crease_method),
@@ -83,7 +83,7 @@ class Rules {
 
   void inherit_edges() {
     pace_.fill(channel_.sharpness.edges, topology_.edge_count(), 0.0f);
-    pace_.for_each(static_cast<Index>(topology_.triangles().size()), [&](Index h) {
+    pace_.for_each(static_cast<Index>(topology_.corner_vertices().size()), [&](Index h) {
       channel_.sharpness.edges[topology_.half_edge_edge(h)] = base_sharpness_.edges[base_.half_edge_edge(h)];
     });
     pace_.for_each(topology_.edge_count(), [&](Index e) {
@@ -98,9 +98,9 @@ class Rules {
     bool border = false;
     for (Index h : base_.vertex_corners(v)) {
       pace_.spend(4);
-      if (is_seam(h) || is_seam(Topology::prev(h))) return false;
+      if (is_seam(h) || is_seam(Triangles::prev(h))) return false;
       border |= base_.is_boundary(base_.half_edge_edge(h)) ||
-                base_.is_boundary(base_.half_edge_edge(Topology::prev(h)));
+                base_.is_boundary(base_.half_edge_edge(Triangles::prev(h)));
     }
     if (!border) return true;
     if (channel_.linear_borders) return false;
@@ -197,17 +197,17 @@ class Rules {
 
   const ControlMesh& mesh_;
   CreaseMethod crease_method_;
-  const Topology& base_;
+  const Topology<Triangles>& base_;
   const Sharpness& base_sharpness_;
   Channel& channel_;
-  const Topology& topology_;  // the channel's
+  const Topology<Triangles>& topology_;  // the channel's
   FaceVaryingInterpolation mode_;
   const Pace& pace_;
 };
 
 }  // namespace
 
-std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pace) {
+std::vector<Index> vertices_with_faces(const Topology<Triangles>& topology, const Pace& pace) {
   std::vector<Index> vertices;
   pace.for_each(topology.vertex_count(), [&](Index v) {
     if (!topology.vertex_corners(v).empty()) vertices.push_back(v);
@@ -216,18 +216,18 @@ std::vector<Index> vertices_with_faces(const Topology& topology, const Pace& pac
 }
 
 Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
-                     std::shared_ptr<const Topology> base, const Sharpness& base_sharpness,
+                     std::shared_ptr<const Topology<Triangles>> base, const Sharpness& base_sharpness,
                      std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
                      const Pace& pace) {
   Channel channel;
   std::vector<Index> corners;
   number_vertices(*base, vertices, corner_values, value_count, corners, channel.values, pace);
-  const Topology& points = *base;
-  if (channel.values.size() == base->vertex_count() && pace.equal(corners, base->triangles()))
+  const Topology<Triangles>& points = *base;
+  if (channel.values.size() == base->vertex_count() && pace.equal(corners, base->corner_vertices()))
     channel.topology = std::move(base);
   else
-    channel.topology =
-        std::make_shared<const Topology>(static_cast<Index>(channel.values.size()), std::move(corners), pace);
+    channel.topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(channel.values.size()),
+                                                                   Triangles(std::move(corners)), pace);
   channel.linear = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
   channel.linear_borders = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
   pace.fill(channel.sharpness.vertices, channel.topology->vertex_count(), 0.0f);
@@ -235,10 +235,10 @@ Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
   return channel;
 }
 
-bool is_as_mesh(const ControlMesh& mesh, const Topology& base, std::span<const Index> corner_values,
-                Index value_count, const Pace& pace) {
+bool is_as_mesh(const ControlMesh& mesh, const Topology<Triangles>& base,
+                std::span<const Index> corner_values, Index value_count, const Pace& pace) {
   return mesh.face_varying_linear_interpolation != FaceVaryingInterpolation::all &&
-         value_count == base.vertex_count() && pace.equal(corner_values, base.triangles()) &&
+         value_count == base.vertex_count() && pace.equal(corner_values, base.corner_vertices()) &&
          pace.all_blocks(base.edge_count(), [&](Count begin, Count end) {
            const auto kinds = base.edge_kinds().subspan(begin, end - begin);
            return std::ranges::find(kinds, EdgeKind::border) == kinds.end();

@@ -1,15 +1,6 @@
 #pragma once
-// The faces of a triangle mesh of any kind and the edges between them: all that the indices of a refined mesh
-// follow from. What touches a vertex stands in topology.h.
-//
-// A half-edge h = 3 f + k runs from corner k to corner k + 1 of face f; the same number names the corner of
-// face f that it leaves, whose vertex is triangles()[h].
-//
-//          v2          next(h): the following half-edge of the face
-//         /  ^         prev(h): the one before
-//     h+2/    \h+1
-//       v  h   \       Around v0 counter-clockwise: the face lies between the edge of h and the edge of
-//     v0 -----> v1     prev(h); the next face around v0 lies across the edge of prev(h).
+// The faces of a mesh of any kind and the edges between them: all that the indices of a refined mesh follow
+// from. What touches a vertex stands in topology.h, and what half-edges are in faces.h.
 
 #include <array>
 #include <span>
@@ -19,26 +10,30 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/mesh/edges.h"
+#include "core/mesh/faces.h"
 
 namespace subdivd {
 
+// Instantiated for Triangles, Quads and Polygons.
+template <class Faces>
 class Connectivity {
  public:
   Connectivity() = default;
-  // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed). Edges
-  // are numbered by find_edges(). Takes time and memory for the faces alone: there may be far more vertices.
-  Connectivity(Index vertex_count, std::vector<Index> triangles, const Pace& pace = {});
+  // The faces' vertices are each < vertex_count, no face repeating one (assumed). Edges are numbered by
+  // find_edges(). Takes time and memory for the faces alone: there may be far more vertices.
+  Connectivity(Index vertex_count, Faces faces, const Pace& pace = {});
 
   Index vertex_count() const { return vertex_count_; }
   Index edge_count() const { return edges_.count(); }
-  Index face_count() const { return static_cast<Index>(triangles_.size() / 3); }
+  Index face_count() const { return faces_.count(); }
 
-  std::span<const Index> triangles() const { return triangles_; }
+  const Faces& faces() const { return faces_; }
+  std::span<const Index> corner_vertices() const { return faces_.corners(); }
   std::span<const Index> half_edge_edges() const { return edges_.of_half_edges; }
   std::span<const std::array<Index, 2>> edge_vertices() const { return edges_.vertices; }
   // Per edge the half-edge that runs from its lower end, and the other; kNoIndex: none.
   std::span<const std::array<Index, 2>> edge_sides() const { return edges_.sides; }
-  Index corner_vertex(Index h) const { return triangles_[h]; }
+  Index corner_vertex(Index h) const { return faces_.corners()[h]; }
   Index half_edge_edge(Index h) const { return edges_.of_half_edges[h]; }
   // The two ends, the lower-numbered first.
   std::array<Index, 2> edge_vertices(Index e) const { return edges_.vertices[e]; }
@@ -58,22 +53,25 @@ class Connectivity {
     return edges_.kinds[e] == EdgeKind::manifold ? across(e, h) : kNoIndex;
   }
 
-  // Branch-free: which corner of its face it is cannot be predicted.
-  static Index next(Index h) { return h + 1 - 3 * static_cast<Index>(h % 3 == 2); }
-  static Index prev(Index h) { return h - 1 + 3 * static_cast<Index>(h % 3 == 0); }
+  Index next(Index h) const { return faces_.next(h); }
+  Index prev(Index h) const { return faces_.prev(h); }
 
  protected:
   // The edges are for the heir to find.
   struct WithoutEdges {};
-  Connectivity(WithoutEdges, Index vertex_count, std::vector<Index> triangles)
-      : vertex_count_(vertex_count), triangles_(std::move(triangles)) {}
+  Connectivity(WithoutEdges, Index vertex_count, Faces faces)
+      : vertex_count_(vertex_count), faces_(std::move(faces)) {}
 
   // The other of two half-edges along e; kNoIndex at a border.
   Index across(Index e, Index h) const { return edges_.sides[e][0] ^ edges_.sides[e][1] ^ h; }
 
   Index vertex_count_ = 0;
-  std::vector<Index> triangles_;
+  Faces faces_;
   Edges edges_;
 };
+
+extern template class Connectivity<Triangles>;
+extern template class Connectivity<Quads>;
+extern template class Connectivity<Polygons>;
 
 }  // namespace subdivd

@@ -73,7 +73,7 @@ std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> 
   return found;
 }
 
-std::vector<Index> edges_between(const Topology& topology, std::span<const VertexPair> pairs,
+std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<const VertexPair> pairs,
                                  const Pace& pace) {
   std::vector<Index> found;
   pace.fill(found, pairs.size(), kNoIndex);

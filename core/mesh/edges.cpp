@@ -7,7 +7,7 @@ namespace subdivd {
 namespace {
 
 // Between two polls of the budget: a millisecond, or some where vertices have many edges.
-constexpr Index kFacesPerPoll = 1 << 14;
+constexpr Index kHalfEdgesPerPoll = 3 << 14;
 
 // A vertex of more corners keeps no edges: a hub of a million edges must not cost a million steps for each.
 constexpr Index kMostCorners = 64;
@@ -15,30 +15,31 @@ constexpr Index kMostCorners = 64;
 // Every edge is kept at one of its ends, its home: the lower-numbered one, unless that is a hub. A home has
 // slots in one cache line, and the other end's number says in which to look first. There is no jump that
 // depends on whether a half-edge is the first along its edge or the second: that is a coin toss.
+template <class Faces>
 class EdgeFinder {
  public:
-  EdgeFinder(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
-             const Pace& pace)
-      : triangles_(triangles),
+  EdgeFinder(Index vertex_count, const Faces& faces, std::span<const Index> corner_offsets, const Pace& pace)
+      : faces_(faces),
+        corners_(faces.corners()),
         corner_offsets_(corner_offsets),
         pace_(pace),
         // A mesh of mostly unused points goes the slow way: its homes would be many times its size.
-        homes_(vertex_count <= triangles.size() ? vertex_count : 0) {
+        homes_(vertex_count <= corners_.size() ? vertex_count : 0) {
     pace.for_each(homes_.size(), [&](std::size_t v) {
       for (Slot& slot : homes_[v].slots) slot = {kNoIndex, kNoIndex};
     });
-    edges_.of_half_edges.resize(triangles.size());
+    edges_.of_half_edges.resize(corners_.size());
     // Room for as many borders as most meshes have.
-    make_room(triangles.size() / 2 + triangles.size() / 16 + kPerFace);
+    make_room(corners_.size() / 2 + corners_.size() / 16 + kAtOnce);
   }
 
   Edges run() {
     mark_hubs();
-    constexpr Index kStride = 3 * kFacesPerPoll;
-    const auto end = static_cast<Index>(triangles_.size());
+    constexpr Index kStride = kHalfEdgesPerPoll / kAtOnce * kAtOnce;
+    const auto end = static_cast<Index>(corners_.size());
     for (Index begin = 0; begin < end; begin += std::min(kStride, end - begin)) {
       pace_.spend(kStride);
-      join_faces(begin, begin + std::min(kStride, end - begin));
+      join_half_edges(begin, begin + std::min(kStride, end - begin));
     }
     edges_.vertices.resize(count_);
     edges_.sides.resize(count_);
@@ -47,7 +48,12 @@ class EdgeFinder {
   }
 
  private:
-  static constexpr Index kPerFace = 3;
+  // Half-edges that need no look at the room that is left, nor for their ends: a whole face where all are of one
+  // size.
+  static constexpr Index kAtOnce = [] {
+    if constexpr (requires { Faces::size; }) return Faces::size;
+    return Index{1};
+  }();
   static constexpr unsigned kSlots = 8;
   struct Slot {
     Index far, edge;  // far: the edge's other end; kNoIndex: free
@@ -71,11 +77,11 @@ class EdgeFinder {
   }
 
   // Half-edges [begin, end).
-  void join_faces(Index begin, Index end) {
+  void join_half_edges(Index begin, Index end) {
     if (homes_.empty()) {
       for (Index h = begin; h < end; ++h) {
-        if (count_ == edges_.vertices.size()) make_room(edges_.vertices.size() * 3 / 2 + kPerFace);
-        const Index a = triangles_[h], b = end_of(h);
+        if (count_ == edges_.vertices.size()) make_room(edges_.vertices.size() * 3 / 2 + kAtOnce);
+        const Index a = corners_[h], b = end_of(h);
         count_ = join_elsewhere(count_, h, a, std::min(a, b), std::max(a, b));
       }
       return;
@@ -83,27 +89,36 @@ class EdgeFinder {
     for (Index h = begin; h < end;) {
       // Arrays by their addresses and the count in a register: the compiler cannot know that what is written
       // to the ones changes none of the others.
-      const Fast fast{triangles_.data(), homes_.data(), edges_.of_half_edges.data(), edges_.vertices.data(),
+      const Fast fast{corners_.data(), homes_.data(), edges_.of_half_edges.data(), edges_.vertices.data(),
                       edges_.sides.data()};
-      const Count room = edges_.vertices.size() - kPerFace;
+      const Count room = edges_.vertices.size() - kAtOnce;
       Index count = count_;
-      for (; h < end && count <= room; h += kPerFace) {
-        const Index a = fast.triangles[h], b = fast.triangles[h + 1], c = fast.triangles[h + 2];
-        count = join(fast, count, h, a, b);
-        count = join(fast, count, h + 1, b, c);
-        count = join(fast, count, h + 2, c, a);
-      }
+      for (; h < end && count <= room; h += kAtOnce) count = join_at_once(fast, count, h);
       count_ = count;
-      if (count > room) make_room(edges_.vertices.size() * 3 / 2 + kPerFace);
+      if (count > room) make_room(edges_.vertices.size() * 3 / 2 + kAtOnce);
     }
   }
 
   struct Fast {
-    const Index* triangles;
+    const Index* corners;
     Home* homes;
     Index* of_half_edges;
     std::array<Index, 2>*vertices, *sides;
   };
+  // Joins the kAtOnce half-edges from h on.
+  [[gnu::always_inline]] inline Index join_at_once(const Fast& fast, Index count, Index h) {
+    if constexpr (kAtOnce == 1) {
+      return join(fast, count, h, fast.corners[h], end_of(h));
+    } else {
+      std::array<Index, kAtOnce> v;
+      for (Index k = 0; k < kAtOnce; ++k) v[k] = fast.corners[h + k];
+      return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        ((count = join(fast, count, h + k, v[k], v[(k + 1) % kAtOnce])), ...);
+        return count;
+      }
+      (std::make_index_sequence<kAtOnce>());
+    }
+  }
   // Half-edge h runs from a to b; returns the number of edges after it. Choices are made by masks, for the
   // compiler would make them by jumps.
   [[gnu::always_inline]] inline Index join(const Fast& fast, Index count, Index h, Index a, Index b) {
@@ -171,7 +186,7 @@ class EdgeFinder {
   }
 
   // The vertex that half-edge h enters.
-  Index end_of(Index h) const { return triangles_[h % 3 == 2 ? h - 2 : h + 1]; }
+  Index end_of(Index h) const { return corners_[faces_.next(h)]; }
   std::size_t vertex_count() const { return corner_offsets_.size() - 1; }
   bool is_hub(Index v) const { return corner_offsets_[v + 1] - corner_offsets_[v] > kMostCorners; }
   // A hub's slots are all taken, by edges to nowhere.
@@ -188,8 +203,8 @@ class EdgeFinder {
   // Calls f(half-edge, lower end, higher end) for those between two hubs, ascending.
   template <class F>
   void for_each_between_hubs(F&& f) const {
-    pace_.for_each(static_cast<Index>(triangles_.size()), [&](Index h) {
-      const Index a = triangles_[h], b = end_of(h);
+    pace_.for_each(static_cast<Index>(corners_.size()), [&](Index h) {
+      const Index a = corners_[h], b = end_of(h);
       if (is_hub(a) && is_hub(b)) f(h, std::min(a, b), std::max(a, b));
     });
   }
@@ -200,8 +215,8 @@ class EdgeFinder {
     for_each_between_hubs([&](Index, Index, Index) { ++count; });
     half_edges.reserve(count);
     for_each_between_hubs([&](Index h, Index, Index) { half_edges.push_back(h); });
-    const auto low = [&](Index k) { return std::min(triangles_[half_edges[k]], end_of(half_edges[k])); };
-    const auto high = [&](Index k) { return std::max(triangles_[half_edges[k]], end_of(half_edges[k])); };
+    const auto low = [&](Index k) { return std::min(corners_[half_edges[k]], end_of(half_edges[k])); };
+    const auto high = [&](Index k) { return std::max(corners_[half_edges[k]], end_of(half_edges[k])); };
     order.reserve(count);
     pace_.for_each(static_cast<Index>(count), [&](Index k) { order.push_back(k); });
     by_end.resize(count);
@@ -223,7 +238,8 @@ class EdgeFinder {
     });
   }
 
-  std::span<const Index> triangles_, corner_offsets_;
+  const Faces& faces_;
+  std::span<const Index> corners_, corner_offsets_;
   const Pace& pace_;
   Edges edges_;
   Index count_ = 0;
@@ -261,9 +277,14 @@ void Edges::set_kinds(const Pace& pace) {
   });
 }
 
-Edges find_edges(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
+template <class Faces>
+Edges find_edges(Index vertex_count, const Faces& faces, std::span<const Index> corner_offsets,
                  const Pace& pace) {
-  return EdgeFinder(vertex_count, triangles, corner_offsets, pace).run();
+  return EdgeFinder(vertex_count, faces, corner_offsets, pace).run();
 }
+
+template Edges find_edges(Index, const Triangles&, std::span<const Index>, const Pace&);
+template Edges find_edges(Index, const Quads&, std::span<const Index>, const Pace&);
+template Edges find_edges(Index, const Polygons&, std::span<const Index>, const Pace&);
 
 }  // namespace subdivd

@@ -1,5 +1,5 @@
 #pragma once
-// The edges of a triangle mesh: which half-edges (connectivity.h) run along the same one.
+// The edges of a mesh: which half-edges (faces.h) run along the same one.
 
 #include <array>
 #include <span>
@@ -8,6 +8,7 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/mesh/faces.h"
 
 namespace subdivd {
 
@@ -34,8 +35,9 @@ struct Edges {
 };
 
 // Edges are numbered in the order in which the faces, corner by corner, first run along them. Row v of
-// `corner_offsets` is as long as v has corners. Linear time.
-Edges find_edges(Index vertex_count, std::span<const Index> triangles, std::span<const Index> corner_offsets,
+// `corner_offsets` is as long as v has corners. Linear time. Instantiated for Triangles, Quads and Polygons.
+template <class Faces>
+Edges find_edges(Index vertex_count, const Faces& faces, std::span<const Index> corner_offsets,
                  const Pace& pace);
 
 }  // namespace subdivd

@@ -11,7 +11,8 @@ namespace {
 float clamped(float s) { return std::min(s, kInfiniteSharpness); }
 
 // Sharpness given by the caller alone.
-std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology<Triangles>& topology,
+                                const Pace& pace) {
   std::vector<float> edges;
   pace.fill(edges, topology.edge_count(), 0.0f);
   if (mesh.crease_lengths.empty()) return edges;
@@ -34,7 +35,7 @@ DecaySum sum_of(std::span<const float> around, const Pace& pace) {
   return all;
 }
 
-bool inside_non_manifold_crease(const Topology& topology, Index v, const Pace& pace) {
+bool inside_non_manifold_crease(const Topology<Triangles>& topology, Index v, const Pace& pace) {
   Index non_manifold = 0, boundary = 0;
   for (Index e : topology.vertex_edges(v)) {
     pace.spend(1);
@@ -106,7 +107,7 @@ float fractional_weight(CreaseMethod method, float parent_vertex, float child_ve
   return count == 0 ? 0.0f : std::min(sum / static_cast<float>(count), 1.0f);
 }
 
-Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+Sharpness control_sharpness(const ControlMesh& mesh, const Topology<Triangles>& topology, const Pace& pace) {
   Sharpness result{tagged_edges(mesh, topology, pace), {}};
   pace.fill(result.vertices, topology.vertex_count(), 0.0f);
   const bool pin_corners = mesh.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
@@ -138,7 +139,8 @@ Sharpness control_sharpness(const ControlMesh& mesh, const Topology& topology, c
   return result;
 }
 
-std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology& topology, const Pace& pace) {
+std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology<Triangles>& topology,
+                                      const Pace& pace) {
   std::vector<unsigned char> holes;
   pace.fill(holes, topology.face_count(), 0);
   pace.for_each(mesh.hole_indices.size(), [&](std::size_t k) { holes[mesh.hole_indices[k]] = 1; });

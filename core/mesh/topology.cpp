@@ -6,39 +6,43 @@
 
 namespace subdivd {
 
-Topology::Topology(Index vertex_count, std::vector<Index> triangles, const Pace& pace)
-    : Connectivity(WithoutEdges{}, vertex_count, std::move(triangles)) {
+template <class Faces>
+Topology<Faces>::Topology(Index vertex_count, Faces faces, const Pace& pace)
+    : Base(typename Base::WithoutEdges{}, vertex_count, std::move(faces)) {
   Buffer<Index> first_corners = count_corners(pace);
-  edges_ = find_edges(vertex_count_, triangles_, vertex_corner_offsets_, pace);
+  edges_ = find_edges(vertex_count_, faces_, vertex_corner_offsets_, pace);
   connect(std::move(first_corners), pace);
 }
 
-Result<Topology> Topology::build(Index vertex_count, std::vector<Index> triangles, const Budget& budget) {
-  return stoppable(budget,
-                   [&](const Pace& pace) { return Topology(vertex_count, std::move(triangles), pace); });
+template <class Faces>
+Result<Topology<Faces>> Topology<Faces>::build(Index vertex_count, Faces faces, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) { return Topology(vertex_count, std::move(faces), pace); });
 }
 
-Topology::Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
-                   Buffer<std::array<Index, 2>> edge_vertices)
-    : Connectivity(WithoutEdges{}, vertex_count, std::move(triangles)) {
+template <class Faces>
+Topology<Faces>::Topology(Index vertex_count, Faces faces, Buffer<Index> half_edge_edges,
+                          Buffer<std::array<Index, 2>> edge_vertices)
+    : Base(typename Base::WithoutEdges{}, vertex_count, std::move(faces)) {
   edges_.of_half_edges = std::move(half_edge_edges);
   edges_.vertices = std::move(edge_vertices);
   edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
-  for (Index h = 0; h < triangles_.size(); ++h) edges_.attach(h, triangles_[h], edges_.of_half_edges[h]);
+  for (Index h = 0; h < corner_vertices().size(); ++h)
+    edges_.attach(h, corner_vertices()[h], edges_.of_half_edges[h]);
   edges_.set_kinds();
   connect(count_corners({}), {});
 }
 
 // Sets the lengths of the rows of corners; returns the lowest corner at every vertex, kNoIndex where there is
 // none, and once more behind the last vertex.
-Buffer<Index> Topology::count_corners(const Pace& pace) {
+template <class Faces>
+Buffer<Index> Topology<Faces>::count_corners(const Pace& pace) {
   Buffer<Index> first;
   pace.fill(first, Count{vertex_count_} + 1, kNoIndex);
   pace.fill(vertex_corner_offsets_, Count{vertex_count_} + 1, 0);
-  pace.in_blocks(triangles_.size(), [&](Count begin, Count end) {
-    const Count size = triangles_.size();  // from the last half-edge to the first
+  pace.in_blocks(corner_vertices().size(), [&](Count begin, Count end) {
+    const Count size = corner_vertices().size();  // from the last half-edge to the first
     for (auto h = static_cast<Index>(size - begin); h-- > static_cast<Index>(size - end);) {
-      const Index v = triangles_[h];
+      const Index v = corner_vertices()[h];
       ++vertex_corner_offsets_[v + 1];
       first[v] = h;
     }
@@ -48,7 +52,8 @@ Buffer<Index> Topology::count_corners(const Pace& pace) {
   return first;
 }
 
-void Topology::connect(Buffer<Index> first_corners, const Pace& pace) {
+template <class Faces>
+void Topology<Faces>::connect(Buffer<Index> first_corners, const Pace& pace) {
   gather_non_manifold_half_edges(pace);
   count_edges(first_corners, pace);
   go_round_vertices(first_corners, pace);
@@ -57,14 +62,15 @@ void Topology::connect(Buffer<Index> first_corners, const Pace& pace) {
 }
 
 // The half-edges of the non-manifold edges, edge by edge, sorted by counting.
-void Topology::gather_non_manifold_half_edges(const Pace& pace) {
+template <class Faces>
+void Topology<Faces>::gather_non_manifold_half_edges(const Pace& pace) {
   const std::vector<Index>& edges = edges_.non_manifold;
   if (edges.empty()) return;
   Buffer<Index> row_of;  // of edges; set for the non-manifold ones
   row_of.resize(edge_count());
   pace.for_each(static_cast<Index>(edges.size()), [&](Index k) { row_of[edges[k]] = k; });
   pace.fill(non_manifold_offsets_, edges.size() + 1, 0);
-  const auto half_edges = static_cast<Index>(triangles_.size());
+  const auto half_edges = static_cast<Index>(corner_vertices().size());
   pace.for_each(half_edges, [&](Index h) {
     if (const Index e = edges_.of_half_edges[h]; is_non_manifold_edge(e))
       ++non_manifold_offsets_[row_of[e] + 1];
@@ -80,7 +86,8 @@ void Topology::gather_non_manifold_half_edges(const Pace& pace) {
   });
 }
 
-std::span<const Index> Topology::half_edges_of_non_manifold(Index e) const {
+template <class Faces>
+std::span<const Index> Topology<Faces>::half_edges_of_non_manifold(Index e) const {
   const std::vector<Index>& edges = edges_.non_manifold;
   const auto k = static_cast<std::size_t>(std::ranges::lower_bound(edges, e) - edges.begin());
   return std::span(non_manifold_half_edges_)
@@ -91,7 +98,8 @@ std::span<const Index> Topology::half_edges_of_non_manifold(Index e) const {
 // takes the first corners from the vertices that are not closed fans.
 // Every corner is at two edges, and an edge is at as many of v's corners as it has faces: 2 for most, so v
 // has as many edges as corners, and half of (2 - faces) more for each that has not two.
-void Topology::count_edges(std::span<Index> first_corners, const Pace& pace) {
+template <class Faces>
+void Topology<Faces>::count_edges(std::span<Index> first_corners, const Pace& pace) {
   pace.fill(non_manifold_vertices_, vertex_count_, 0);
   pace.fill(vertex_edge_offsets_, Count{vertex_count_} + 1, 0);
   for_each_set(
@@ -113,10 +121,12 @@ void Topology::count_edges(std::span<Index> first_corners, const Pace& pace) {
 }
 
 // Goes counter-clockwise round a vertex whose edges all have two faces, and writes corners and edges.
-class Topology::Walk {
+template <class Faces>
+class Topology<Faces>::Walk {
  public:
   Walk(Topology& topology, Index v, Index start)
-      : edge_of_(topology.edges_.of_half_edges.data()),
+      : faces_(&topology.faces_),
+        edge_of_(topology.edges_.of_half_edges.data()),
         sides_(topology.edges_.sides.data()),
         corners_(topology.vertex_corners_.data() + topology.vertex_corner_offsets_[v]),
         edges_(topology.vertex_edges_.data() + topology.vertex_edge_offsets_[v]),
@@ -167,11 +177,12 @@ class Topology::Walk {
   [[gnu::always_inline]] void step() {
     corners_[met_] = at_;
     edges_[met_++] = edge_;
-    const Index before = prev(at_);
+    const Index before = faces_->prev(at_);
     edge_ = edge_of_[before];
     at_ = sides_[edge_][0] ^ sides_[edge_][1] ^ before;
   }
 
+  const Faces* faces_;
   const Index* edge_of_;
   const std::array<Index, 2>* sides_;
   Index *corners_, *edges_;
@@ -180,8 +191,9 @@ class Topology::Walk {
 };
 
 // Writes the rows of all vertices whose faces are one closed fan, and finds those where several meet.
-void Topology::go_round_vertices(std::span<const Index> first_corners, const Pace& pace) {
-  vertex_corners_.resize(triangles_.size());
+template <class Faces>
+void Topology<Faces>::go_round_vertices(std::span<const Index> first_corners, const Pace& pace) {
+  vertex_corners_.resize(corner_vertices().size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
   const auto corners_before = [&](Index v) { return vertex_corner_offsets_[v]; };
   Index next_vertex = 0, next_corner = 0;  // at either of which the budget is polled again
@@ -211,12 +223,13 @@ void Topology::go_round_vertices(std::span<const Index> first_corners, const Pac
 
 // Writes the rows of all vertices whose faces are one open fan: it starts at the border's half-edge that
 // leaves the vertex.
-void Topology::go_round_borders(const Pace& pace) {
+template <class Faces>
+void Topology<Faces>::go_round_borders(const Pace& pace) {
   for_each_set(
       edge_kinds(),
       [&](std::size_t e) {
         if (!is_boundary(static_cast<Index>(e))) return;
-        const Index start = edge_half_edges(static_cast<Index>(e))[0], v = triangles_[start];
+        const Index start = edge_half_edges(static_cast<Index>(e))[0], v = corner_vertices()[start];
         if (is_non_manifold_vertex(v)) return;
         Index* corner = vertex_corners_.data() + vertex_corner_offsets_[v];
         Index* edge = vertex_edges_.data() + vertex_edge_offsets_[v];
@@ -232,14 +245,15 @@ void Topology::go_round_borders(const Pace& pace) {
 }
 
 // Writes the corners and edges of the other vertices.
-void Topology::list_non_manifold(const Pace& pace) {
+template <class Faces>
+void Topology<Faces>::list_non_manifold(const Pace& pace) {
   bool any = false;
   pace.for_each(vertex_count_, [&](Index v) { any |= is_non_manifold_vertex(v); });
   if (!any) return;
   Buffer<Index> ends;
   pace.copy(vertex_corner_offsets_, ends);
-  pace.for_each(static_cast<Index>(triangles_.size()), [&](Index h) {
-    if (const Index v = triangles_[h]; is_non_manifold_vertex(v)) vertex_corners_[ends[v]++] = h;
+  pace.for_each(static_cast<Index>(corner_vertices().size()), [&](Index h) {
+    if (const Index v = corner_vertices()[h]; is_non_manifold_vertex(v)) vertex_corners_[ends[v]++] = h;
   });
   pace.copy(vertex_edge_offsets_, ends);
   pace.for_each(edge_count(), [&](Index e) {
@@ -247,5 +261,9 @@ void Topology::list_non_manifold(const Pace& pace) {
       if (is_non_manifold_vertex(v)) vertex_edges_[ends[v]++] = e;
   });
 }
+
+template class Topology<Triangles>;
+template class Topology<Quads>;
+template class Topology<Polygons>;
 
 }  // namespace subdivd

@@ -1,6 +1,6 @@
 #pragma once
-// What touches what in a triangle mesh of any kind, manifold or not. The only code that goes round vertices
-// by half-edges; connectivity.h says what those are.
+// What touches what in a mesh of any kind, manifold or not. The fast way round vertices by half-edges; faces.h
+// says what those are.
 
 #include <algorithm>
 #include <array>
@@ -18,19 +18,32 @@
 
 namespace subdivd {
 
-class Topology : public Connectivity {
+// Instantiated for Triangles, Quads and Polygons.
+template <class Faces>
+class Topology : public Connectivity<Faces> {
  public:
   Topology() = default;
-  // `triangles`: 3 vertex indices per face, each < vertex_count, no face repeating a vertex (assumed). Edges
-  // are numbered by find_edges(). Linear time, some tens of nanoseconds a triangle.
-  Topology(Index vertex_count, std::vector<Index> triangles, const Pace& pace = {});
+  // The faces' vertices are each < vertex_count, no face repeating one (assumed). Edges are numbered by
+  // find_edges(). Linear time, some tens of nanoseconds a triangle.
+  Topology(Index vertex_count, Faces faces, const Pace& pace = {});
   // The same, and returns the budget's error when it says to stop.
-  static Result<Topology> build(Index vertex_count, std::vector<Index> triangles, const Budget& budget);
+  static Result<Topology> build(Index vertex_count, Faces faces, const Budget& budget);
   // With the edges as given: the edge of every half-edge, and every edge's ends, the lower-numbered first.
   // Refinement needs it: two faces over the same three points refine to edges that share their ends and are
   // not the same.
-  Topology(Index vertex_count, std::vector<Index> triangles, Buffer<Index> half_edge_edges,
+  Topology(Index vertex_count, Faces faces, Buffer<Index> half_edge_edges,
            Buffer<std::array<Index, 2>> edge_vertices);
+
+  using Base = Connectivity<Faces>;
+  using Base::corner_vertices;
+  using Base::edge_count;
+  using Base::edge_kinds;
+  using Base::half_edge_edge;
+  using Base::is_boundary;
+  using Base::is_non_manifold_edge;
+  using Base::mate;
+  using Base::next;
+  using Base::prev;
 
   // Half-edges along e: of a manifold edge the one that runs from the lower end first, of others ascending.
   std::span<const Index> edge_half_edges(Index e) const {
@@ -98,6 +111,10 @@ class Topology : public Connectivity {
   static std::span<const Index> slice(const Buffer<Index>& items, const Buffer<Index>& offsets, Index k) {
     return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
   }
+  using Base::across;
+  using Base::edges_;
+  using Base::faces_;
+  using Base::vertex_count_;
   class Walk;
   void connect(Buffer<Index> first_corners, const Pace& pace);
   Buffer<Index> count_corners(const Pace& pace);
@@ -118,8 +135,9 @@ class Topology : public Connectivity {
 };
 
 // Cuts the fan that the vertex has at the edges that may not be passed.
+template <class Faces>
 template <class Passable>
-Topology::Fans Topology::fans_of_one(Index v, Passable passable, const Pace& pace) const {
+auto Topology<Faces>::fans_of_one(Index v, Passable passable, const Pace& pace) const -> Fans {
   const auto corners = vertex_corners(v), edges = vertex_edges(v);
   const bool closed = corners.size() == edges.size();
   const std::size_t count = corners.size();
@@ -146,8 +164,9 @@ Topology::Fans Topology::fans_of_one(Index v, Passable passable, const Pace& pac
   return result;
 }
 
+template <class Faces>
 template <class Passable>
-Topology::Fans Topology::scattered_fans(Index v, Passable passable, const Pace& pace) const {
+auto Topology<Faces>::scattered_fans(Index v, Passable passable, const Pace& pace) const -> Fans {
   const auto corners = vertex_corners(v);
   // The corner before h, clockwise: across the edge of h.
   auto before = [&](Index h) {
@@ -184,7 +203,11 @@ Topology::Fans Topology::scattered_fans(Index v, Passable passable, const Pace& 
   return result;
 }
 
-// What building a topology takes beside what it holds in the end, at most: the edges' homes while they are
+extern template class Topology<Triangles>;
+extern template class Topology<Quads>;
+extern template class Topology<Polygons>;
+
+// What building a topology of triangles takes beside what it holds in the end, at most: the edges' homes while they are
 // found (edges.cpp), room for edges that grows, half-edges between hubs.
 inline Count topology_building_bytes(Count vertices, Count faces) {
   const bool has_homes = vertices <= 3 * faces;

@@ -155,8 +155,10 @@ Error too_long(std::string message, Path where, Picoseconds time) {
 Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) {
     const std::vector<Index> offsets = corner_offsets(mesh, pace);
+    std::vector<Index> corners;
+    pace.copy(mesh.face_vertex_indices, corners);
     const Edges edges =
-        find_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, offsets, pace);
+        find_edges(static_cast<Index>(mesh.point_count()), Triangles(std::move(corners)), offsets, pace);
     return LoadFinder(mesh, offsets, edges, pace).run();
   });
 }

@@ -40,8 +40,9 @@ bool are_alike(const Primvar& a, const Primvar& b, const Pace& pace) {
   return value_count(a) == value_count(b) && pace.equal(a.indices, b.indices);
 }
 
-bool connects_alike(const Topology& topology, const RenderMesh& render, const Pace& pace) {
-  return topology.vertex_count() == render.vertex_count && pace.equal(topology.triangles(), render.indices) &&
+bool connects_alike(const Topology<Triangles>& topology, const RenderMesh& render, const Pace& pace) {
+  return topology.vertex_count() == render.vertex_count &&
+         pace.equal(topology.corner_vertices(), render.indices) &&
          pace.all_blocks(topology.vertex_count(), [&](Count begin, Count end) {
            for (Count v = begin; v < end; ++v)
              if (topology.vertex_corners(static_cast<Index>(v)).empty()) return false;
@@ -82,9 +83,9 @@ Result<Plan> Plan::build(const ControlMesh& mesh, const PlanOptions& options, co
     Plan plan;
     std::vector<Index> triangles;
     pace.copy(mesh.face_vertex_indices, triangles);
-    auto shared =
-        std::make_shared<const Topology>(static_cast<Index>(mesh.point_count()), std::move(triangles), pace);
-    const Topology& topology = *shared;
+    auto shared = std::make_shared<const Topology<Triangles>>(static_cast<Index>(mesh.point_count()),
+                                                              Triangles(std::move(triangles)), pace);
+    const Topology<Triangles>& topology = *shared;
     // Sharpness that varies along edges takes memory at every level: not more than points alone would.
     const LevelCounts counts = refined_counts(topology.vertex_count(), topology.edge_count(),
                                               topology.face_count(), options.max_level);
@@ -124,7 +125,8 @@ void Plan::add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace
   }
 }
 
-std::shared_ptr<const Connectivity> Plan::connectivity_of(const RenderMesh& render, const Pace& pace) const {
+std::shared_ptr<const Connectivity<Triangles>> Plan::connectivity_of(const RenderMesh& render,
+                                                                     const Pace& pace) const {
   const Index faces = net().topology().face_count();
   const bool is_whole = render.face_end - render.face_begin == faces && output_faces_ == faces;
   for (std::size_t k = 0; is_whole && k < nets_.size(); ++k) {
@@ -133,7 +135,8 @@ std::shared_ptr<const Connectivity> Plan::connectivity_of(const RenderMesh& rend
   }
   std::vector<Index> indices;
   pace.copy(render.indices, indices);
-  return std::make_shared<const Connectivity>(render.vertex_count, std::move(indices), pace);
+  return std::make_shared<const Connectivity<Triangles>>(render.vertex_count, Triangles(std::move(indices)),
+                                                         pace);
 }
 
 void Plan::add_render_meshes(const ControlMesh& mesh, const Pace& pace) {
@@ -145,7 +148,7 @@ void Plan::add_render_meshes(const ControlMesh& mesh, const Pace& pace) {
 }
 
 LevelCounts Plan::counts(Index level) const {
-  const Topology& topology = net().topology();
+  const Topology<Triangles>& topology = net().topology();
   LevelCounts counts =
       refined_counts(topology.vertex_count(), topology.edge_count(), topology.face_count(), level);
   counts.triangles = output_faces_ * triangles_per_face(level);

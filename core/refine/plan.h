@@ -43,7 +43,7 @@ class Plan {
   std::size_t channel_count() const { return nets_.size() - 1; }
   // Of the k-th render mesh, over its own vertices: a seam of any attribute is a border. Where it connects all
   // faces as a net does, it is that net's topology, and vertices have the same numbers at every level.
-  const Connectivity& render_mesh(std::size_t k) const { return *render_meshes_[k]; }
+  const Connectivity<Triangles>& render_mesh(std::size_t k) const { return *render_meshes_[k]; }
   std::size_t render_mesh_count() const { return render_meshes_.size(); }
   std::span<const unsigned char> holes() const { return holes_; }  // per base face: 1 = not output
   // Vertices and edges of the refined mesh; triangles: holes left out.
@@ -51,11 +51,12 @@ class Plan {
 
  private:
   void add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace);
-  std::shared_ptr<const Connectivity> connectivity_of(const RenderMesh& render, const Pace& pace) const;
+  std::shared_ptr<const Connectivity<Triangles>> connectivity_of(const RenderMesh& render,
+                                                                 const Pace& pace) const;
   void add_render_meshes(const ControlMesh& mesh, const Pace& pace);
 
   std::vector<std::shared_ptr<const Net>> nets_;
-  std::vector<std::shared_ptr<const Connectivity>> render_meshes_;
+  std::vector<std::shared_ptr<const Connectivity<Triangles>>> render_meshes_;
   std::vector<unsigned char> holes_;
   Count output_faces_ = 0;
 };

@@ -13,9 +13,9 @@
 namespace subdivd {
 namespace {
 
-Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity& connectivity, const Plan& plan,
-                                 Index level, Index triangle_begin, Index threads, const Budget& budget,
-                                 const Pace& pace) {
+Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity<Triangles>& connectivity,
+                                 const Plan& plan, Index level, Index triangle_begin, Index threads,
+                                 const Budget& budget, const Pace& pace) {
   const auto holes = plan.holes().subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
   RefinedRenderMesh refined;
   refined.vertex_count = static_cast<Index>(Numbering(connectivity, level).vertex_count());
@@ -38,9 +38,10 @@ Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity& con
 
 }  // namespace
 
-Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Connectivity& connectivity,
-                                             const Plan& plan, Index level, Index triangle_begin,
-                                             Index threads, const Budget& budget) {
+Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh,
+                                             const Connectivity<Triangles>& connectivity, const Plan& plan,
+                                             Index level, Index triangle_begin, Index threads,
+                                             const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) {
     return refine(mesh, connectivity, plan, level, triangle_begin, threads, budget, pace);
   });

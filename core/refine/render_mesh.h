@@ -13,8 +13,9 @@ namespace subdivd {
 // `connectivity`: the plan's, of this render mesh. `triangle_begin`: output triangles of the faces before
 // this render mesh's. Takes time and memory for its own faces and vertices alone: a mesh may have a hundred
 // thousand of them.
-Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh, const Connectivity& connectivity,
-                                             const Plan& plan, Index level, Index triangle_begin,
-                                             Index threads, const Budget& budget);
+Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh,
+                                             const Connectivity<Triangles>& connectivity, const Plan& plan,
+                                             Index level, Index triangle_begin, Index threads,
+                                             const Budget& budget);
 
 }  // namespace subdivd

@@ -36,7 +36,7 @@ constexpr Count kSemiSharpBytes = 64, kCreaseBytesPerPoint = 32, kValueBytes = 1
 // While the ring of a hub is looked at, which is as large as the mesh.
 constexpr Count kHub = 4096, kBytesPerRingCorner = 176;
 
-Count ring_bytes(const Topology& topology, const Pace& pace) {
+Count ring_bytes(const Topology<Triangles>& topology, const Pace& pace) {
   Count corners = 0;
   pace.for_each(topology.vertex_count(), [&](Index v) {
     if (const Count here = topology.vertex_corners(v).size(); here > kHub) corners += here;
@@ -137,7 +137,7 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
     const auto faces =
         std::ranges::count(plan.holes().subspan(render.face_begin, render.face_end - render.face_begin), 0);
     size.render_vertices.push_back(vertices);
-    const Connectivity& connectivity = plan.render_mesh(k);
+    const Connectivity<Triangles>& connectivity = plan.render_mesh(k);
     Count sources = &connectivity != &plan.net().topology();
     for (std::size_t c = 0; c < plan.channel_count(); ++c)
       sources += &connectivity != &plan.channel_net(c).topology();

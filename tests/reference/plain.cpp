@@ -8,13 +8,13 @@ namespace subdivd::plain {
 namespace {
 
 // With the edges as the topology numbers them: sharpness is given by those numbers.
-Polygons polygons_of(const Topology& topology) {
-  const auto corners = topology.triangles(), edges = topology.half_edge_edges();
+Adjacency polygons_of(const Topology<Triangles>& topology) {
+  const auto corners = topology.corner_vertices(), edges = topology.half_edge_edges();
   const auto ends = topology.edge_vertices();
   std::vector<Index> offsets;
   for (Index f = 0; f <= topology.face_count(); ++f) offsets.push_back(3 * f);
-  return Polygons(topology.vertex_count(), std::move(offsets), {corners.begin(), corners.end()},
-                  {edges.begin(), edges.end()}, {ends.begin(), ends.end()});
+  return Adjacency(topology.vertex_count(), Polygons(std::move(offsets), {corners.begin(), corners.end()}),
+                   {edges.begin(), edges.end()}, {ends.begin(), ends.end()});
 }
 
 std::vector<GridPoint> child_corners(const std::vector<GridPoint>& corners) {
@@ -32,7 +32,7 @@ std::vector<GridPoint> child_corners(const std::vector<GridPoint>& corners) {
 
 }  // namespace
 
-Level first_level(const Topology& topology, Sharpness sharpness, CreaseMethod method) {
+Level first_level(const Topology<Triangles>& topology, Sharpness sharpness, CreaseMethod method) {
   return first_level(polygons_of(topology), std::move(sharpness), method);
 }
 
@@ -41,14 +41,14 @@ Level first_level(const Channel& channel, const Level& mesh) {
                      channel.linear_borders, mesh);
 }
 
-Topology topology_of(const Polygons& faces) {
+Topology<Triangles> topology_of(const Adjacency& faces) {
   const auto corners = faces.corners(), edges = faces.half_edge_edges();
   const auto ends = faces.edge_vertices();
-  return Topology(faces.vertex_count(), {corners.begin(), corners.end()}, {edges.begin(), edges.end()},
-                  {ends.begin(), ends.end()});
+  return Topology<Triangles>(faces.vertex_count(), Triangles({corners.begin(), corners.end()}),
+                             {edges.begin(), edges.end()}, {ends.begin(), ends.end()});
 }
 
-std::vector<Index> closed_form_numbers(const Topology& base, Index depth, const Polygons& faces) {
+std::vector<Index> closed_form_numbers(const Topology<Triangles>& base, Index depth, const Adjacency& faces) {
   std::vector<GridPoint> corners;  // of the children of one face: where each lies on its grid
   corners = {{0, 0}, {1, 0}, {0, 1}};
   for (Index level = 0; level < depth; ++level) corners = child_corners(corners);

@@ -11,14 +11,14 @@
 namespace subdivd::plain {
 
 // Level 0 of a mesh, and of a channel of it.
-Level first_level(const Topology& topology, Sharpness sharpness, CreaseMethod method);
+Level first_level(const Topology<Triangles>& topology, Sharpness sharpness, CreaseMethod method);
 Level first_level(const Channel& channel, const Level& mesh);
 
 // The faces of a level of triangles as a topology, numbers and all.
-Topology topology_of(const Polygons& faces);
+Topology<Triangles> topology_of(const Adjacency& faces);
 
 // For every vertex of the level `depth` steps from `base` its number by the closed form; unreferenced points
 // keep theirs.
-std::vector<Index> closed_form_numbers(const Topology& base, Index depth, const Polygons& faces);
+std::vector<Index> closed_form_numbers(const Topology<Triangles>& base, Index depth, const Adjacency& faces);
 
 }  // namespace subdivd::plain

@@ -14,7 +14,7 @@ namespace subdivd::plain {
 namespace {
 
 struct Control {
-  Topology topology;
+  Topology<Triangles> topology;
   Sharpness sharpness;
   std::vector<unsigned char> holes;
   std::vector<Channel> channels;
@@ -22,8 +22,8 @@ struct Control {
 
 Control make_control(const ControlMesh& mesh, CreaseMethod method) {
   Control control;
-  const auto topology =
-      std::make_shared<const Topology>(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  const auto topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(mesh.point_count()),
+                                                                    Triangles(mesh.face_vertex_indices));
   control.topology = *topology;
   control.sharpness = control_sharpness(mesh, control.topology);
   control.holes = hole_flags(mesh, control.topology);
@@ -136,7 +136,7 @@ class Refinement {
  private:
   template <class F>
   Result<void> for_each_ring(const Values<Real>& set, const Level& mesh, F&& f) const {
-    const Topology faces = topology_of(level_.faces), mesh_faces = topology_of(mesh.faces);
+    const Topology<Triangles> faces = topology_of(level_.faces), mesh_faces = topology_of(mesh.faces);
     const SharpTopology own{faces, level_.sharpness}, above{mesh_faces, mesh.sharpness};
     for (Index v = 0; v < faces.vertex_count(); ++v) {
       if (v % 4096 == 0)
@@ -151,7 +151,7 @@ class Refinement {
   Scheme scheme_;
   const RefineOptions& options_;
   Budget budget_;
-  Topology base_;
+  Topology<Triangles> base_;
   Level level_;
   std::vector<Index> numbers_;  // of the last level's vertices, by the closed form
 };
@@ -225,7 +225,7 @@ class Job {
       Buffer<Real>*values, *limit_values;
     };
     std::vector<Target> targets;
-    const Topology* topology;
+    const Topology<Triangles>* topology;
   };
 
   // Positions and the primvars that live on the points make one part, every channel another.

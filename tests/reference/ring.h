@@ -12,7 +12,7 @@ namespace subdivd::plain {
 
 // A mesh or channel at some level.
 struct SharpTopology {
-  const Topology& topology;
+  const Topology<Triangles>& topology;
   const Sharpness& sharpness;
 };
 

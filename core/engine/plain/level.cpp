@@ -8,7 +8,7 @@ namespace subdivd::plain {
 namespace {
 
 // Which of its halves edge e has at v.
-Index half_at(const Polygons& faces, Index e, Index v) { return faces.edge_vertices(e)[0] == v ? 0 : 1; }
+Index half_at(const Adjacency& faces, Index e, Index v) { return faces.edge_vertices(e)[0] == v ? 0 : 1; }
 
 std::vector<std::array<float, 2>> decayed_halves(const Level& level, CreaseMethod method, const Pace& pace) {
   std::vector<std::array<float, 2>> halves(level.faces.edge_count());
@@ -30,7 +30,7 @@ std::vector<std::array<float, 2>> decayed_halves(const Level& level, CreaseMetho
 std::vector<std::array<float, 2>> inherited_halves(const Level& channel, const Level& mesh,
                                                    const Pace& pace) {
   std::vector<std::array<float, 2>> halves(channel.faces.edge_count());
-  const auto lower_half = [](const Polygons& faces, Index h) {
+  const auto lower_half = [](const Adjacency& faces, Index h) {
     return half_at(faces, faces.half_edge_edge(h), faces.corner_vertex(h));
   };
   pace.for_each(channel.faces.half_edge_count(), [&](Index h) {
@@ -45,7 +45,7 @@ std::vector<std::array<float, 2>> inherited_halves(const Level& channel, const L
 }
 
 // Face f = (v0, v1, v2) with edge points e0, e1, e2 becomes (v0 e0 e2) (e0 v1 e1) (e2 e1 v2) (e0 e1 e2).
-Polygons split_triangles(const Polygons& parent, const Pace& pace) {
+Adjacency split_triangles(const Adjacency& parent, const Pace& pace) {
   const Index vertices = parent.vertex_count(), inside = 2 * parent.edge_count();
   const Count corner_count = Count{4} * parent.half_edge_count();
   std::vector<Index> offsets, corners, edges;
@@ -76,13 +76,13 @@ Polygons split_triangles(const Polygons& parent, const Pace& pace) {
     edges.insert(edges.end(), {out[0], across[0], in[0], in[1], out[1], across[1], across[2], in[2], out[2],
                                across[1], across[2], across[0]});
   });
-  return Polygons(vertices + parent.edge_count(), std::move(offsets), std::move(corners), std::move(edges),
-                  std::move(ends), pace);
+  return Adjacency(vertices + parent.edge_count(), Polygons(std::move(offsets), std::move(corners), pace),
+                   std::move(edges), std::move(ends), pace);
 }
 
 // The next level but for its halves.
 Level split(const Level& level, const Pace& pace) {
-  const Polygons& parent = level.faces;
+  const Adjacency& parent = level.faces;
   Level next{split_triangles(parent, pace), {}, {}, level.linear, level.linear_borders};
   pace.fill(next.sharpness.edges, next.faces.edge_count(), 0.0f);  // edges inside faces are smooth
   pace.fill(next.sharpness.vertices, next.faces.vertex_count(), 0.0f);
@@ -160,13 +160,13 @@ class Rows {
 
 }  // namespace
 
-Level first_level(Polygons faces, Sharpness sharpness, CreaseMethod method, const Pace& pace) {
+Level first_level(Adjacency faces, Sharpness sharpness, CreaseMethod method, const Pace& pace) {
   Level level{std::move(faces), std::move(sharpness), {}, false, false};
   level.halves = decayed_halves(level, method, pace);
   return level;
 }
 
-Level first_level(Polygons faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
+Level first_level(Adjacency faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
                   const Pace& pace) {
   Level level{std::move(faces), std::move(sharpness), {}, linear, linear_borders};
   level.halves = inherited_halves(level, mesh, pace);

@@ -7,7 +7,7 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
-#include "core/engine/plain/polygons.h"
+#include "core/engine/plain/adjacency.h"
 #include "core/engine/plain/sparse_rows.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/sharpness.h"
@@ -17,7 +17,7 @@ namespace subdivd::plain {
 
 // One level of a mesh or of a face-varying channel of it.
 struct Level {
-  Polygons faces;
+  Adjacency faces;
   Sharpness sharpness;
   // Sharpness of the halves of every edge, one level on: [e][0] next to its lower-numbered end, [e][1] to the
   // other.
@@ -26,11 +26,11 @@ struct Level {
 };
 
 // Level 0 of a mesh.
-Level first_level(Polygons faces, Sharpness sharpness, CreaseMethod method, const Pace& pace = {});
+Level first_level(Adjacency faces, Sharpness sharpness, CreaseMethod method, const Pace& pace = {});
 // Of a channel. It has the mesh's sharpness but for its borders, at every level: under Chaikin's rule that
 // decays with the edges around a point of the *mesh*, of which a channel's vertex at a seam sees only some.
 // `mesh`: the level of the mesh that this level of the channel belongs to; the same faces in the same order.
-Level first_level(Polygons faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
+Level first_level(Adjacency faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
                   const Pace& pace = {});
 
 // One step of Split::triangles, every face being a triangle. The vertex point of v has the number v, the edge

@@ -78,7 +78,7 @@ void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real*
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from, Real* to, Index v,
                                                   const Pace& pace) const {
-  const Topology& topology = net_.topology();
+  const Topology<Triangles>& topology = net_.topology();
   if (net_.vertex_rules()[v] == VertexRule::corner) return;
   std::vector<float> sharpness, child;
   for (const Index e : topology.vertex_edges(v)) {
@@ -154,7 +154,7 @@ void BaseVertices<Scheme, Real>::prepare_limits(Index level, const Pace& pace) {
 template <class Scheme, class Real>
 Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Index v,
                                             const Pace& pace) const {
-  const Topology& topology = net_.topology();
+  const Topology<Triangles>& topology = net_.topology();
   const Count n = segments(level);
   Ring<Real> ring;
   ring.width = width_;

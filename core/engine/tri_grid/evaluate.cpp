@@ -109,13 +109,13 @@ class Evaluation {
   }
 
   TriStep<Real> step_from(Index level, const Real* from, Real* to, Real* rows) const {
-    const Topology& topology = net_.topology();
+    const Topology<Triangles>& topology = net_.topology();
     const auto* rules =
         linear_ ? linear_rules_.data() : reinterpret_cast<const unsigned char*>(net_.edge_rules().data());
     const auto pairs = [](std::span<const std::array<Index, 2>> all) {
       return all.empty() ? nullptr : all[0].data();
     };
-    return {topology.triangles().data(),
+    return {topology.corner_vertices().data(),
             topology.half_edge_edges().data(),
             pairs(topology.edge_vertices()),
             pairs(topology.edge_sides()),

@@ -14,10 +14,11 @@ namespace subdivd::plain {
 namespace {
 
 Level base_level(const ControlMesh& mesh, CreaseMethod method = CreaseMethod::uniform) {
-  const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
+                                     Triangles(mesh.face_vertex_indices));
   std::vector<Index> offsets;
   for (Index k = 0; k <= mesh.face_vertex_indices.size(); k += 3) offsets.push_back(k);
-  return first_level(Polygons(topology.vertex_count(), offsets, mesh.face_vertex_indices),
+  return first_level(Adjacency(topology.vertex_count(), Polygons(offsets, mesh.face_vertex_indices)),
                      control_sharpness(mesh, topology), method);
 }
 

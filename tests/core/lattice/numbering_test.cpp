@@ -50,7 +50,8 @@ TEST(Split, finds_inner_points_by_their_numbers) {
 TEST(Split, counts_are_those_of_refining_step_by_step) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Topology base(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    const Topology<Triangles> base(static_cast<Index>(mesh.point_count()),
+                                   Triangles(mesh.face_vertex_indices));
     plain::Level at = plain::first_level(base, control_sharpness(mesh, base), CreaseMethod::uniform);
     for (Index level = 1; level <= 3; ++level) {
       at = plain::next_level(at, CreaseMethod::uniform);
@@ -66,7 +67,8 @@ TEST(Split, counts_are_those_of_refining_step_by_step) {
 TEST(Numbering, is_a_bijection_and_faces_agree_along_their_edges) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
+                                       Triangles(mesh.face_vertex_indices));
     for (Index level : {0, 1, 2, 3}) {
       const Numbering numbering(topology, level);
       const Count n = numbering.segment_count();
@@ -94,7 +96,8 @@ TEST(Numbering, is_a_bijection_and_faces_agree_along_their_edges) {
 // Every two neighbours that follow one another make a triangle with the vertex.
 TEST(Numbering, a_regular_ring_goes_round_counter_clockwise) {
   for (const ControlMesh& mesh : {shapes::icosahedron(), shapes::double_pyramid(5)}) {
-    const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+    const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
+                                       Triangles(mesh.face_vertex_indices));
     for (Index level : {1, 2, 3, 4}) {
       const Numbering numbering(topology, level);
       std::set<std::array<Index, 3>> triangles;  // from every corner on

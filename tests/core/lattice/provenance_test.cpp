@@ -15,11 +15,11 @@ namespace {
 
 constexpr Index kLevels[] = {0, 1, 2, 3};
 
-Connectivity connectivity_of(const ControlMesh& mesh) {
-  return Connectivity(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+Connectivity<Triangles> connectivity_of(const ControlMesh& mesh) {
+  return Connectivity<Triangles>(static_cast<Index>(mesh.point_count()), Triangles(mesh.face_vertex_indices));
 }
 
-std::vector<Provenance> provenance_of(const Connectivity& connectivity, Index level) {
+std::vector<Provenance> provenance_of(const Connectivity<Triangles>& connectivity, Index level) {
   std::vector<Provenance> places(Numbering(connectivity, level).vertex_count());
   write_provenance(connectivity, level, places, Pace());
   return places;
@@ -28,7 +28,7 @@ std::vector<Provenance> provenance_of(const Connectivity& connectivity, Index le
 TEST(Provenance, leads_back_to_the_vertex) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Connectivity connectivity = connectivity_of(mesh);
+    const Connectivity<Triangles> connectivity = connectivity_of(mesh);
     for (const Index level : kLevels) {
       const Numbering numbering(connectivity, level);
       const auto places = provenance_of(connectivity, level);
@@ -43,7 +43,7 @@ TEST(Provenance, leads_back_to_the_vertex) {
 TEST(Provenance, is_of_the_lowest_face_that_has_the_vertex) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Connectivity connectivity = connectivity_of(mesh);
+    const Connectivity<Triangles> connectivity = connectivity_of(mesh);
     for (const Index level : kLevels) {
       const Numbering numbering(connectivity, level);
       const Count n = numbering.segment_count();
@@ -92,12 +92,12 @@ TEST(Split, numbers_the_points_of_a_face_row_by_row) {
 
 TEST(Sources, are_at_the_same_place_of_the_same_face) {
   const ControlMesh mesh = shapes::icosahedron();
-  const Connectivity whole = connectivity_of(mesh);
+  const Connectivity<Triangles> whole = connectivity_of(mesh);
   // Faces 5 to 12, torn apart at every edge.
   constexpr Index kFirst = 5, kCount = 8;
   std::vector<Index> torn(3 * kCount);
   for (Index k = 0; k < torn.size(); ++k) torn[k] = k;
-  const Connectivity part(3 * kCount, std::move(torn));
+  const Connectivity<Triangles> part(3 * kCount, Triangles(std::move(torn)));
   std::vector<unsigned char> holes(kCount, 0);
   holes[3] = 1;
   for (const Index level : kLevels) {

@@ -63,7 +63,8 @@ TEST(HostileMesh, a_crease_to_and_fro_between_two_hubs_takes_linear_time) {
   const Budget budget = within(kLinear);
   ASSERT_TRUE(mesh.check(budget).ok());
   const auto sharpness = stoppable(budget, [&](const Pace& pace) {
-    const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, pace);
+    const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
+                                       Triangles(mesh.face_vertex_indices), pace);
     return control_sharpness(mesh, topology, pace);
   });
   EXPECT_TRUE(sharpness.ok());
@@ -78,10 +79,10 @@ TEST(HostileMesh, edges_between_many_hubs_are_found_in_linear_time) {
     if (a != b && b != c && c != a)
       mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {a, b, c});
   }
-  const auto built = Topology::build(kHubs, mesh.face_vertex_indices, within(kLinear));
+  const auto built = Topology<Triangles>::build(kHubs, Triangles(mesh.face_vertex_indices), within(kLinear));
   ASSERT_TRUE(built.ok());
   for (Index h = 0; h < mesh.face_vertex_indices.size(); ++h) {
-    const Index from = mesh.face_vertex_indices[h], to = mesh.face_vertex_indices[Topology::next(h)];
+    const Index from = mesh.face_vertex_indices[h], to = mesh.face_vertex_indices[Triangles::next(h)];
     const auto ends = built->edge_vertices(built->half_edge_edge(h));
     ASSERT_EQ(ends, (std::array<Index, 2>{std::min(from, to), std::max(from, to)}));
   }
@@ -111,7 +112,7 @@ TEST(HostileMesh, a_hub_of_many_shared_values_is_numbered_in_linear_time) {
     for (Index& v : triangles) v = v == 0 ? hub : v - 1;
     for (std::size_t h = 0; h < triangles.size(); ++h)
       values.push_back(triangles[h] == hub ? kFaces - 1 - static_cast<Index>(h / 3) : triangles[h]);
-    const auto topology = std::make_shared<const Topology>(kFaces + 1, triangles, pace);
+    const auto topology = std::make_shared<const Topology<Triangles>>(kFaces + 1, Triangles(triangles), pace);
     const Sharpness sharpness = control_sharpness(mesh, *topology, pace);
     return make_channel(mesh, CreaseMethod::uniform, topology, sharpness, vertices_with_faces(*topology),
                         values, kFaces, pace);
@@ -125,7 +126,7 @@ TEST(HostileMesh, one_large_fan_among_many_small_ones_is_sorted_in_linear_time) 
   constexpr Index kFaces = 200000;
   const ControlMesh mesh = shapes::disk(kFaces);
   const auto fans = stoppable(within(kLinear), [&](const Pace& pace) {
-    const Topology topology(kFaces + 1, mesh.face_vertex_indices, pace);
+    const Topology<Triangles> topology(kFaces + 1, Triangles(mesh.face_vertex_indices), pace);
     // Half of the spokes are walls, in the second half of the numbers.
     const auto passable = [&](Index e) { return topology.edge_vertices(e)[1] % kFaces < kFaces / 2; };
     return topology.fans(0, passable, pace);

@@ -50,7 +50,7 @@ TEST(ControlSharpness, the_last_crease_that_names_an_edge_wins) {
   ControlMesh mesh = shapes::cube();
   shapes::crease(mesh, {0, 1}, 3);
   shapes::crease(mesh, {1, 0}, 2);
-  const Topology topology(8, mesh.face_vertex_indices);
+  const Topology<Triangles> topology(8, Triangles(mesh.face_vertex_indices));
   const Sharpness sharpness = control_sharpness(mesh, topology);
   for (Index e : topology.vertex_edges(0))
     EXPECT_EQ(sharpness.edges[e], topology.other_end(e, 0) == 1 ? 2.0f : 0.0f);
@@ -60,7 +60,7 @@ TEST(ControlSharpness, pins_border_corners_only_when_asked) {
   ControlMesh mesh;
   mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   mesh.face_vertex_indices = {0, 1, 2};
-  const Topology topology(3, mesh.face_vertex_indices);
+  const Topology<Triangles> topology(3, Triangles(mesh.face_vertex_indices));
   EXPECT_EQ(control_sharpness(mesh, topology).vertices, Floats(3, kInfiniteSharpness));
   mesh.interpolate_boundary = BoundaryInterpolation::edge_only;
   EXPECT_EQ(control_sharpness(mesh, topology).vertices, Floats(3, 0.0f));
@@ -69,7 +69,8 @@ TEST(ControlSharpness, pins_border_corners_only_when_asked) {
 TEST(Holes, boundary_none_leaves_out_the_faces_that_touch_the_border) {
   ControlMesh mesh = shapes::grid(4, 4);
   mesh.interpolate_boundary = BoundaryInterpolation::none;
-  const Topology topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+  const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
+                                     Triangles(mesh.face_vertex_indices));
   const auto holes = hole_flags(mesh, topology);
   EXPECT_EQ(std::ranges::count(holes, 0), 8);  // the inner 2 x 2 quads
 }

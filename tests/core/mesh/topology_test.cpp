@@ -10,12 +10,12 @@
 namespace subdivd {
 namespace {
 
-Topology of(const ControlMesh& mesh) {
-  return Topology(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices);
+Topology<Triangles> of(const ControlMesh& mesh) {
+  return Topology<Triangles>(static_cast<Index>(mesh.point_count()), Triangles(mesh.face_vertex_indices));
 }
 
 TEST(Topology, numbers_edges_as_the_faces_run_along_them) {
-  const Topology topology(4, {0, 1, 2, 2, 1, 3});
+  const Topology<Triangles> topology(4, Triangles({0, 1, 2, 2, 1, 3}));
   ASSERT_EQ(topology.edge_count(), 5u);
   EXPECT_EQ(topology.edge_vertices(0), (std::array<Index, 2>{0, 1}));
   EXPECT_EQ(topology.edge_vertices(1), (std::array<Index, 2>{1, 2}));
@@ -29,7 +29,7 @@ TEST(Topology, numbers_edges_as_the_faces_run_along_them) {
 TEST(Topology, every_relation_agrees_with_the_triangles) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Topology topology = of(mesh);
+    const Topology<Triangles> topology = of(mesh);
     Count corners = 0, half_edges = 0, ends = 0;
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       corners += topology.vertex_corners(v).size();
@@ -46,38 +46,38 @@ TEST(Topology, every_relation_agrees_with_the_triangles) {
       const auto [a, b] = topology.edge_vertices(e);
       ASSERT_LT(a, b);
       for (Index h : topology.edge_half_edges(e)) {
-        const Index from = topology.corner_vertex(h), to = topology.corner_vertex(Topology::next(h));
+        const Index from = topology.corner_vertex(h), to = topology.corner_vertex(Triangles::next(h));
         ASSERT_EQ(std::min(from, to), a);
         ASSERT_EQ(std::max(from, to), b);
       }
     }
-    EXPECT_EQ(corners, topology.triangles().size());
-    EXPECT_EQ(half_edges, topology.triangles().size());
+    EXPECT_EQ(corners, topology.corner_vertices().size());
+    EXPECT_EQ(half_edges, topology.corner_vertices().size());
     EXPECT_EQ(ends, 2 * Count{topology.edge_count()});
   }
 }
 
 TEST(Topology, finds_an_edge_of_three_faces) {
-  const Topology topology(5, {0, 1, 2, 1, 0, 3, 0, 1, 4});
+  const Topology<Triangles> topology(5, Triangles({0, 1, 2, 1, 0, 3, 0, 1, 4}));
   EXPECT_TRUE(topology.is_non_manifold_edge(0));
   EXPECT_TRUE(topology.is_non_manifold_vertex(0));
   EXPECT_FALSE(topology.is_non_manifold_vertex(2));
 }
 
 TEST(Topology, finds_windings_that_clash) {
-  const Topology topology(4, {0, 1, 2, 0, 1, 3});
+  const Topology<Triangles> topology(4, Triangles({0, 1, 2, 0, 1, 3}));
   EXPECT_TRUE(topology.is_non_manifold_edge(0));
   EXPECT_EQ(topology.mate(0), kNoIndex);
 }
 
 TEST(Topology, finds_a_bow_tie) {
-  const Topology topology(5, {0, 1, 2, 0, 3, 4});
+  const Topology<Triangles> topology(5, Triangles({0, 1, 2, 0, 3, 4}));
   EXPECT_TRUE(topology.is_non_manifold_vertex(0));
   EXPECT_FALSE(topology.is_non_manifold_vertex(1));
 }
 
 TEST(Topology, an_unreferenced_point_has_neither_edges_nor_corners) {
-  const Topology topology(4, {0, 1, 2});
+  const Topology<Triangles> topology(4, Triangles({0, 1, 2}));
   EXPECT_TRUE(topology.vertex_edges(3).empty());
   EXPECT_TRUE(topology.vertex_corners(3).empty());
   EXPECT_FALSE(topology.is_non_manifold_vertex(3));
@@ -98,14 +98,14 @@ TEST(Topology, corners_and_edges_go_round_a_manifold_vertex) {
   // Up to a few edges a point keeps them in one place, further ones in another, a hub in none.
   for (const Index rim : {3u, 7u, 8u, 9u, 20u, 64u, 65u, 66u, 1000u})
     for (const bool closed : {false, true}) {
-      const Topology topology(rim + 1, fan_of(rim, closed));
+      const Topology<Triangles> topology(rim + 1, Triangles(fan_of(rim, closed)));
       const auto corners = topology.vertex_corners(0), edges = topology.vertex_edges(0);
       ASSERT_FALSE(topology.is_non_manifold_vertex(0));
       ASSERT_EQ(corners.size(), rim - !closed);
       ASSERT_EQ(edges.size(), rim);
       for (std::size_t k = 0; k < corners.size(); ++k) {
         EXPECT_EQ(topology.half_edge_edge(corners[k]), edges[k]);
-        EXPECT_EQ(topology.half_edge_edge(Topology::prev(corners[k])), edges[(k + 1) % rim]);
+        EXPECT_EQ(topology.half_edge_edge(Triangles::prev(corners[k])), edges[(k + 1) % rim]);
       }
       if (closed) {
         EXPECT_EQ(corners[0], *std::ranges::min_element(corners));
@@ -124,7 +124,7 @@ TEST(Topology, edges_between_hubs_are_found_once) {
     for (const Index v : {k % 2, 1 - k % 2, k + 2}) triangles.push_back(v);
   // With a thousand unused points, too: edges are then found in another way.
   for (const Index points : {102u, 1102u}) {
-    const Topology topology(points, triangles);
+    const Topology<Triangles> topology(points, Triangles(triangles));
     ASSERT_EQ(topology.edge_count(), 201u);
     EXPECT_EQ(topology.edge_half_edges(topology.half_edge_edge(0)).size(), 100u);
   }
@@ -133,7 +133,8 @@ TEST(Topology, edges_between_hubs_are_found_once) {
 TEST(Topology, unused_points_change_nothing) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Topology with(static_cast<Index>(mesh.point_count()) + 10000, mesh.face_vertex_indices),
+    const Topology<Triangles> with(static_cast<Index>(mesh.point_count()) + 10000,
+                                   Triangles(mesh.face_vertex_indices)),
         without = of(mesh);
     ASSERT_TRUE(std::ranges::equal(with.half_edge_edges(), without.half_edge_edges()));
     ASSERT_TRUE(std::ranges::equal(with.edge_sides(), without.edge_sides()));
@@ -146,7 +147,7 @@ TEST(Topology, finds_a_closed_and_an_open_fan_at_one_vertex) {
   for (const bool first : {false, true}) {
     std::vector<Index> triangles{0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
     triangles.insert(first ? triangles.begin() : triangles.end(), {0, 4, 5});
-    const Topology topology(6, triangles);
+    const Topology<Triangles> topology(6, Triangles(triangles));
     EXPECT_TRUE(topology.is_non_manifold_vertex(0));
     EXPECT_TRUE(std::ranges::is_sorted(topology.vertex_corners(0)));
     EXPECT_TRUE(std::ranges::is_sorted(topology.vertex_edges(0)));
@@ -159,16 +160,16 @@ TEST(Topology, finds_a_closed_and_an_open_fan_at_one_vertex) {
 TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Topology topology = of(mesh);
+    const Topology<Triangles> topology = of(mesh);
     for (Index v = 0; v < topology.vertex_count(); ++v) {
       std::vector<Index> seen;
-      const Topology::Fans fans = topology.fans(v, [](Index) { return true; });
+      const Topology<Triangles>::Fans fans = topology.fans(v, [](Index) { return true; });
       for (std::size_t f = 0; f < fans.size(); ++f) {
-        const Topology::Fan fan = fans[f];
+        const Topology<Triangles>::Fan fan = fans[f];
         for (std::size_t k = 0; k + 1 < fan.corners.size(); ++k)
-          ASSERT_EQ(topology.mate(Topology::prev(fan.corners[k])), fan.corners[k + 1]);
+          ASSERT_EQ(topology.mate(Triangles::prev(fan.corners[k])), fan.corners[k + 1]);
         if (fan.closed) {
-          ASSERT_EQ(topology.mate(Topology::prev(fan.corners.back())), fan.corners.front());
+          ASSERT_EQ(topology.mate(Triangles::prev(fan.corners.back())), fan.corners.front());
         }
         seen.insert(seen.end(), fan.corners.begin(), fan.corners.end());
       }
@@ -178,7 +179,7 @@ TEST(Fans, hold_every_corner_once_and_turn_counter_clockwise) {
 }
 
 TEST(Fans, end_at_edges_that_may_not_be_passed) {
-  const Topology topology(5, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1});
+  const Topology<Triangles> topology(5, Triangles({0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}));
   const Index wall = topology.half_edge_edge(0);
   const auto fans = topology.fans(0, [&](Index e) { return e != wall; });
   ASSERT_EQ(fans.size(), 1u);

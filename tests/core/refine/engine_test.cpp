@@ -141,7 +141,7 @@ ControlMesh with_values_on_points(ControlMesh mesh) {
   return mesh;
 }
 
-bool has_border(const Topology& topology) {
+bool has_border(const Topology<Triangles>& topology) {
   return std::ranges::count(topology.edge_kinds(), EdgeKind::border) > 0;
 }
 

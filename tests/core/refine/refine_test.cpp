@@ -224,7 +224,7 @@ TEST(Primvars, every_interpolation_has_its_rule) {
   const auto refined = refine<double>(mesh, options, {});
   EXPECT_EQ(refined->primvars[0].values, refined->points);
   EXPECT_EQ(refined->primvars[0].limit_values, refined->limit_points);
-  const Topology topology(12, mesh.face_vertex_indices);
+  const Topology<Triangles> topology(12, Triangles(mesh.face_vertex_indices));
   const auto& linear = mesh.primvars[1].values;
   for (Index v = 0; v < 12; ++v) EXPECT_EQ(refined->primvars[1].values[v], linear[v]);
   for (Index e = 0; e < topology.edge_count(); ++e) {

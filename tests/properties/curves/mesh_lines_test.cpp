@@ -40,7 +40,8 @@ Refinement refined(const MeshLine& line, Index level) {
     ADD_FAILURE() << (mesh ? curve.error() : mesh.error()).message;
     return {};
   }
-  const Topology topology(static_cast<Index>(line.mesh.point_count()), line.mesh.face_vertex_indices);
+  const Topology<Triangles> topology(static_cast<Index>(line.mesh.point_count()),
+                                     Triangles(line.mesh.face_vertex_indices));
   const Numbering numbering(topology, level);
   Refinement both{std::move(*mesh), std::move(*curve), {}};
   for (const Provenance& place : places_along(line, level))

@@ -152,8 +152,8 @@ TEST(RefineProperties, renumbering_only_renumbers) {
       for (Index& v : *indices) v = new_point(v);
     for (Index& f : other.hole_indices) f = new_face(f);
     const auto a = refined(mesh, 2, true), b = refined(other, 2, true);
-    const Topology topology_a(points, mesh.face_vertex_indices),
-        topology_b(points, other.face_vertex_indices);
+    const Topology<Triangles> topology_a(points, Triangles(mesh.face_vertex_indices)),
+        topology_b(points, Triangles(other.face_vertex_indices));
     const Numbering place_a(topology_a, 2), place_b(topology_b, 2);
     ASSERT_EQ(a.points.size(), b.points.size());
     for (Index f = 0; f < faces; ++f)

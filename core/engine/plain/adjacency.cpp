@@ -1,4 +1,4 @@
-#include "core/engine/plain/polygons.h"
+#include "core/engine/plain/adjacency.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,51 +21,38 @@ void sort_into_rows(Index row_count, Index item_count, std::vector<Index>& items
 
 }  // namespace
 
-Polygons::Polygons(Index vertex_count, std::vector<Index> face_offsets, std::vector<Index> corners,
-                   const Pace& pace)
-    : vertex_count_(vertex_count), face_offsets_(std::move(face_offsets)), corners_(std::move(corners)) {
-  list_faces(pace);
+Adjacency::Adjacency(Index vertex_count, Polygons faces, const Pace& pace)
+    : vertex_count_(vertex_count), faces_(std::move(faces)) {
   find_edges(pace);
   connect(pace);
 }
 
-Polygons::Polygons(Index vertex_count, std::vector<Index> face_offsets, std::vector<Index> corners,
-                   std::vector<Index> half_edge_edges, std::vector<std::array<Index, 2>> edge_vertices,
-                   const Pace& pace)
+Adjacency::Adjacency(Index vertex_count, Polygons faces, std::vector<Index> half_edge_edges,
+                     std::vector<std::array<Index, 2>> edge_vertices, const Pace& pace)
     : vertex_count_(vertex_count),
-      face_offsets_(std::move(face_offsets)),
-      corners_(std::move(corners)),
+      faces_(std::move(faces)),
       half_edge_edges_(std::move(half_edge_edges)),
       edge_vertices_(std::move(edge_vertices)) {
-  list_faces(pace);
   connect(pace);
-}
-
-void Polygons::list_faces(const Pace& pace) {
-  pace.fill(faces_, corners_.size(), Index{0});
-  pace.for_each(face_count(), [&](Index f) {
-    pace.spend(face_size(f));
-    std::fill_n(faces_.begin() + face_offsets_[f], face_size(f), f);
-  });
 }
 
 // Half-edges are sorted by their lower end; within a row, `first_to` holds for each other end the first
 // half-edge that went there. It is not cleared between rows: what another row left is told by its lower end.
-void Polygons::find_edges(const Pace& pace) {
-  const auto low = [&](Index h) { return std::min(corners_[h], corners_[next(h)]); };
-  const auto high = [&](Index h) { return std::max(corners_[h], corners_[next(h)]); };
+void Adjacency::find_edges(const Pace& pace) {
+  const auto low = [&](Index h) { return std::min(corner_vertex(h), corner_vertex(next(h))); };
+  const auto high = [&](Index h) { return std::max(corner_vertex(h), corner_vertex(next(h))); };
   std::vector<Index> by_low, offsets, first_to, first;
   sort_into_rows(vertex_count_, half_edge_count(), by_low, offsets, pace,
                  [&](Index h, auto&& add) { add(low(h)); });
   pace.fill(first_to, vertex_count_, kNoIndex);
-  pace.fill(first, corners_.size(), kNoIndex);
+  pace.fill(first, half_edge_count(), kNoIndex);
   pace.for_each(half_edge_count(), [&](Index k) {
     const Index h = by_low[k];
     Index& seen = first_to[high(h)];
     if (seen == kNoIndex || low(seen) != low(h)) seen = h;
     first[h] = seen;
   });
-  pace.fill(half_edge_edges_, corners_.size(), kNoIndex);
+  pace.fill(half_edge_edges_, half_edge_count(), kNoIndex);
   pace.for_each(half_edge_count(), [&](Index h) {
     if (first[h] == h) {
       half_edge_edges_[h] = edge_count();
@@ -76,11 +63,11 @@ void Polygons::find_edges(const Pace& pace) {
   });
 }
 
-void Polygons::connect(const Pace& pace) {
+void Adjacency::connect(const Pace& pace) {
   sort_into_rows(edge_count(), half_edge_count(), edge_half_edges_, edge_offsets_, pace,
                  [&](Index h, auto&& add) { add(half_edge_edges_[h]); });
   sort_into_rows(vertex_count_, half_edge_count(), vertex_corners_, vertex_corner_offsets_, pace,
-                 [&](Index h, auto&& add) { add(corners_[h]); });
+                 [&](Index h, auto&& add) { add(corner_vertex(h)); });
   sort_into_rows(vertex_count_, edge_count(), vertex_edges_, vertex_edge_offsets_, pace,
                  [&](Index e, auto&& add) {
                    add(edge_vertices_[e][0]);
@@ -89,14 +76,14 @@ void Polygons::connect(const Pace& pace) {
   order_edges(pace);
 }
 
-Index Polygons::mate(Index h) const {
+Index Adjacency::mate(Index h) const {
   const auto along = edge_half_edges(half_edge_edges_[h]);
-  if (along.size() != 2 || corners_[along[0]] == corners_[along[1]]) return kNoIndex;
+  if (along.size() != 2 || corner_vertex(along[0]) == corner_vertex(along[1])) return kNoIndex;
   return along[0] == h ? along[1] : along[0];
 }
 
 // The edges at v counter-clockwise; false when the faces there are not one fan.
-bool Polygons::order_fan(Index v, std::vector<Index>& edges, const Pace& pace) const {
+bool Adjacency::order_fan(Index v, std::vector<Index>& edges, const Pace& pace) const {
   const auto corners = vertex_corners(v);
   const std::size_t edge_count = vertex_edges(v).size();
   for (const Index h : corners)
@@ -124,7 +111,7 @@ bool Polygons::order_fan(Index v, std::vector<Index>& edges, const Pace& pace) c
   return edges.size() == edge_count;
 }
 
-void Polygons::order_edges(const Pace& pace) {
+void Adjacency::order_edges(const Pace& pace) {
   std::vector<Index> edges;
   pace.for_each(vertex_count_, [&](Index v) {
     if (!vertex_corners(v).empty() && order_fan(v, edges, pace))
