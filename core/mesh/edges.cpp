@@ -77,7 +77,7 @@ class EdgeFinder {
   }
 
   // Half-edges [begin, end).
-  void join_half_edges(Index begin, Index end) {
+  [[gnu::noinline]] void join_half_edges(Index begin, Index end) {
     if (homes_.empty()) {
       for (Index h = begin; h < end; ++h) {
         if (count_ == edges_.vertices.size()) make_room(edges_.vertices.size() * 3 / 2 + kAtOnce);

@@ -137,7 +137,7 @@ class Topology<Faces>::Walk {
 
   // To the end; whether it comes back to the start there and not before. It ends by counting: where a
   // corner's other side leads to is known late, and meanwhile the processor goes on to the next vertex.
-  bool go_on() {
+  [[gnu::always_inline]] bool go_on() {
     go_on_to(all_);
     return at_ == start_ && met_ == all_;
   }
@@ -153,7 +153,7 @@ class Topology<Faces>::Walk {
   bool is_short() const { return all_ <= kStepsPerPoll; }
   // All but the shorter one's last step, by turns: every step of a walk waits for the one before. False when
   // one comes back to its start.
-  static bool go_together(Walk& one, Walk& other) {
+  [[gnu::always_inline]] static bool go_together(Walk& one, Walk& other) {
     const std::size_t both = std::min(one.all_, other.all_);
     while (one.met_ + 1 < both) {
       one.step();
