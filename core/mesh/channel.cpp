@@ -47,15 +47,15 @@ struct Span {
 
 class Rules {
  public:
-  Rules(const ControlMesh& mesh, CreaseMethod crease_method, const Topology<Triangles>& base,
+  Rules(const Cage& cage, CreaseMethod crease_method, const Topology<Triangles>& base,
         const Sharpness& base_sharpness, Channel& channel, const Pace& pace)
-      : mesh_(mesh),
+      : cage_(cage),
         crease_method_(crease_method),
         base_(base),
         base_sharpness_(base_sharpness),
         channel_(channel),
         topology_(*channel.topology),
-        mode_(mesh.face_varying_linear_interpolation),
+        mode_(cage.face_varying_linear_interpolation),
         pace_(pace) {}
 
   void apply(std::span<const Index> vertices) {
@@ -104,7 +104,7 @@ class Rules {
     }
     if (!border) return true;
     if (channel_.linear_borders) return false;
-    const bool corner_is_smooth = mesh_.interpolate_boundary != BoundaryInterpolation::edge_and_corner;
+    const bool corner_is_smooth = cage_.interpolate_boundary != BoundaryInterpolation::edge_and_corner;
     return !(base_.vertex_corners(v).size() == 1 && corner_is_smooth &&
              mode_ != FaceVaryingInterpolation::none);
   }
@@ -195,7 +195,7 @@ class Rules {
     }
   }
 
-  const ControlMesh& mesh_;
+  const Cage& cage_;
   CreaseMethod crease_method_;
   const Topology<Triangles>& base_;
   const Sharpness& base_sharpness_;
@@ -215,7 +215,7 @@ std::vector<Index> vertices_with_faces(const Topology<Triangles>& topology, cons
   return vertices;
 }
 
-Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
+Channel make_channel(const Cage& cage, CreaseMethod crease_method,
                      std::shared_ptr<const Topology<Triangles>> base, const Sharpness& base_sharpness,
                      std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
                      const Pace& pace) {
@@ -228,16 +228,16 @@ Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
   else
     channel.topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(channel.values.size()),
                                                                    Triangles(std::move(corners)), pace);
-  channel.linear = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
-  channel.linear_borders = mesh.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
+  channel.linear = cage.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
+  channel.linear_borders = cage.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
   pace.fill(channel.sharpness.vertices, channel.topology->vertex_count(), 0.0f);
-  Rules(mesh, crease_method, points, base_sharpness, channel, pace).apply(vertices);
+  Rules(cage, crease_method, points, base_sharpness, channel, pace).apply(vertices);
   return channel;
 }
 
-bool is_as_mesh(const ControlMesh& mesh, const Topology<Triangles>& base,
-                std::span<const Index> corner_values, Index value_count, const Pace& pace) {
-  return mesh.face_varying_linear_interpolation != FaceVaryingInterpolation::all &&
+bool is_as_mesh(const Cage& cage, const Topology<Triangles>& base, std::span<const Index> corner_values,
+                Index value_count, const Pace& pace) {
+  return cage.face_varying_linear_interpolation != FaceVaryingInterpolation::all &&
          value_count == base.vertex_count() && pace.equal(corner_values, base.corner_vertices()) &&
          pace.all_blocks(base.edge_count(), [&](Count begin, Count end) {
            const auto kinds = base.edge_kinds().subspan(begin, end - begin);

@@ -9,7 +9,7 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
-#include "core/mesh/control_mesh.h"
+#include "core/mesh/cage.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
 
@@ -33,14 +33,14 @@ std::vector<Index> vertices_with_faces(const Topology<Triangles>& topology, cons
 // `corner_values`: one value index per face corner, each < value_count. `base` and `base_sharpness` are the
 // control mesh's own (control_sharpness), `vertices` is vertices_with_faces(*base); the crease method tells
 // how long a semi-sharp crease holds. Linear in the faces and values, but values are sorted at each vertex.
-Channel make_channel(const ControlMesh& mesh, CreaseMethod crease_method,
+Channel make_channel(const Cage& cage, CreaseMethod crease_method,
                      std::shared_ptr<const Topology<Triangles>> base, const Sharpness& base_sharpness,
                      std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
                      const Pace& pace = {});
 
 // Whether every point has one value under its own number, and nothing that the channel's mode decides: no
 // border, no linear interpolation. Such a channel is refined as a vertex primvar is, with the mesh's rules.
-bool is_as_mesh(const ControlMesh& mesh, const Topology<Triangles>& base,
-                std::span<const Index> corner_values, Index value_count, const Pace& pace = {});
+bool is_as_mesh(const Cage& cage, const Topology<Triangles>& base, std::span<const Index> corner_values,
+                Index value_count, const Pace& pace = {});
 
 }  // namespace subdivd

@@ -10,22 +10,9 @@
 #include "core/base/budget.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/mesh/cage.h"
 
 namespace subdivd {
-
-// What happens where the surface ends.  [USD interpolateBoundary]
-enum class BoundaryInterpolation {
-  none,             // faces that touch the border support the surface but are not output
-  edge_only,        // the border is a smooth curve; corners of the border are rounded
-  edge_and_corner,  // as edge_only, and a border vertex of a single face is pinned
-};
-
-// Which parts of a face-varying channel's border are linear instead of smooth.
-// [USD faceVaryingLinearInterpolation], from least to most linear.
-enum class FaceVaryingInterpolation { none, corners_only, corners_plus1, corners_plus2, boundaries, all };
-
-// How the sharpness of a semi-sharp crease decays along the levels.  [DeRose98, section 4; RenderMan]
-enum class CreaseMethod { uniform, chaikin };
 
 // One value per: mesh (constant), base face (uniform), point and refined linearly (varying),
 // point and refined like positions (vertex), face corner (face_varying).
@@ -39,18 +26,7 @@ struct Primvar {
   std::vector<Index> indices;  // one per mesh / face / point / face corner; empty: 0, 1, 2, …
 };
 
-// Sharpness is single precision, as in USD and OpenSubdiv: its decay 2.3 -> 1.3 -> 0.3 rounds at every step,
-// so the type is part of the rule. At or above this it is infinite, as in OpenSubdiv; USD writes 1e38.
-inline constexpr float kInfiniteSharpness = 10.0f;
 inline constexpr Index kMaxElementSize = 4096;
-
-// The faces [face_begin, face_end) as a renderer indexes them: seams of any attribute split a vertex. Only
-// connectivity: the refined render mesh says which refined vertices to copy (glTF primitives use it).
-struct RenderMesh {
-  Index face_begin = 0, face_end = 0;
-  Index vertex_count = 0;
-  std::vector<Index> indices;  // 3 per face, each < vertex_count
-};
 
 struct ControlMesh {
   std::string name;

@@ -96,10 +96,10 @@ std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<
   return found;
 }
 
-std::vector<VertexPair> crease_edges(const ControlMesh& mesh, const Pace& pace) {
+std::vector<VertexPair> crease_edges(const Cage& cage, const Pace& pace) {
   std::vector<VertexPair> pairs;
-  pairs.reserve(mesh.crease_indices.size());
-  for_each_crease_edge(mesh, [&](Count, Index a, Index b, float) {
+  pairs.reserve(cage.crease_indices.size());
+  for_each_crease_edge(cage, [&](Count, Index a, Index b, float) {
     pace.spend(1);
     pairs.push_back({a, b});
   });

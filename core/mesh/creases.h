@@ -8,7 +8,7 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
-#include "core/mesh/control_mesh.h"
+#include "core/mesh/cage.h"
 #include "core/mesh/topology.h"
 
 namespace subdivd {
@@ -16,13 +16,13 @@ namespace subdivd {
 // Calls f(position, a, b, sharpness) for every edge of every crease in the order given: from point a =
 // crease_indices[position] to b, the next. The creases' lengths and sharpnesses must fit, as check() has it.
 template <class F>
-void for_each_crease_edge(const ControlMesh& mesh, F&& f) {
-  const bool per_crease = mesh.crease_sharpnesses.size() == mesh.crease_lengths.size();
+void for_each_crease_edge(const Cage& cage, F&& f) {
+  const bool per_crease = cage.crease_sharpnesses.size() == cage.crease_lengths.size();
   Count position = 0, edge = 0;
-  for (Count crease = 0; crease < mesh.crease_lengths.size(); ++crease, ++position)
-    for (Index k = 1; k < mesh.crease_lengths[crease]; ++k, ++position, ++edge)
-      f(position, mesh.crease_indices[position], mesh.crease_indices[position + 1],
-        mesh.crease_sharpnesses[per_crease ? crease : edge]);
+  for (Count crease = 0; crease < cage.crease_lengths.size(); ++crease, ++position)
+    for (Index k = 1; k < cage.crease_lengths[crease]; ++k, ++position, ++edge)
+      f(position, cage.crease_indices[position], cage.crease_indices[position + 1],
+        cage.crease_sharpnesses[per_crease ? crease : edge]);
 }
 
 using VertexPair = std::array<Index, 2>;
@@ -37,6 +37,6 @@ std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<
                                  const Pace& pace);
 
 // Those that f(position, ...) above is called for.
-std::vector<VertexPair> crease_edges(const ControlMesh& mesh, const Pace& pace);
+std::vector<VertexPair> crease_edges(const Cage& cage, const Pace& pace);
 
 }  // namespace subdivd

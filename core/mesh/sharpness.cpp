@@ -11,14 +11,13 @@ namespace {
 float clamped(float s) { return std::min(s, kInfiniteSharpness); }
 
 // Sharpness given by the caller alone.
-std::vector<float> tagged_edges(const ControlMesh& mesh, const Topology<Triangles>& topology,
-                                const Pace& pace) {
+std::vector<float> tagged_edges(const Cage& cage, const Topology<Triangles>& topology, const Pace& pace) {
   std::vector<float> edges;
   pace.fill(edges, topology.edge_count(), 0.0f);
-  if (mesh.crease_lengths.empty()) return edges;
-  const std::vector<Index> along = edges_between(topology, crease_edges(mesh, pace), pace);
+  if (cage.crease_lengths.empty()) return edges;
+  const std::vector<Index> along = edges_between(topology, crease_edges(cage, pace), pace);
   Count k = 0;
-  for_each_crease_edge(mesh, [&](Count, Index, Index, float sharpness) {
+  for_each_crease_edge(cage, [&](Count, Index, Index, float sharpness) {
     pace.spend(1);
     if (const Index e = along[k++]; e != kNoIndex) edges[e] = clamped(sharpness);
   });
@@ -107,18 +106,18 @@ float fractional_weight(CreaseMethod method, float parent_vertex, float child_ve
   return count == 0 ? 0.0f : std::min(sum / static_cast<float>(count), 1.0f);
 }
 
-Sharpness control_sharpness(const ControlMesh& mesh, const Topology<Triangles>& topology, const Pace& pace) {
-  Sharpness result{tagged_edges(mesh, topology, pace), {}};
+Sharpness control_sharpness(const Cage& cage, const Topology<Triangles>& topology, const Pace& pace) {
+  Sharpness result{tagged_edges(cage, topology, pace), {}};
   pace.fill(result.vertices, topology.vertex_count(), 0.0f);
-  const bool pin_corners = mesh.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
+  const bool pin_corners = cage.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
   const auto is_border_corner = [&](Index v) {
     return topology.vertex_corners(v).size() == 1 && topology.vertex_edges(v).size() == 2;
   };
   const auto kinds = topology.edge_kinds();
   for_each_set(
       kinds, [&](std::size_t e) { result.edges[e] = kInfiniteSharpness; }, pace);
-  pace.for_each(mesh.corner_indices.size(), [&](std::size_t k) {
-    result.vertices[mesh.corner_indices[k]] = clamped(mesh.corner_sharpnesses[k]);
+  pace.for_each(cage.corner_indices.size(), [&](std::size_t k) {
+    result.vertices[cage.corner_indices[k]] = clamped(cage.corner_sharpnesses[k]);
   });
   if (pin_corners)
     for_each_set(
@@ -139,13 +138,13 @@ Sharpness control_sharpness(const ControlMesh& mesh, const Topology<Triangles>& 
   return result;
 }
 
-std::vector<unsigned char> hole_flags(const ControlMesh& mesh, const Topology<Triangles>& topology,
+std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Triangles>& topology,
                                       const Pace& pace) {
   std::vector<unsigned char> holes;
   pace.fill(holes, topology.face_count(), 0);
-  pace.for_each(mesh.hole_indices.size(), [&](std::size_t k) { holes[mesh.hole_indices[k]] = 1; });
-  if (mesh.interpolate_boundary != BoundaryInterpolation::none) return holes;
-  const std::vector<float> tagged = tagged_edges(mesh, topology, pace);
+  pace.for_each(cage.hole_indices.size(), [&](std::size_t k) { holes[cage.hole_indices[k]] = 1; });
+  if (cage.interpolate_boundary != BoundaryInterpolation::none) return holes;
+  const std::vector<float> tagged = tagged_edges(cage, topology, pace);
   std::vector<unsigned char> open;  // vertices
   pace.fill(open, topology.vertex_count(), 0);
   for_each_set(

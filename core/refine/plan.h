@@ -13,8 +13,8 @@
 #include "core/base/result.h"
 #include "core/engine/net.h"
 #include "core/lattice/split.h"
+#include "core/mesh/cage.h"
 #include "core/mesh/connectivity.h"
-#include "core/mesh/control_mesh.h"
 #include "core/schemes/all.h"
 
 namespace subdivd {
@@ -28,15 +28,15 @@ struct PlanOptions {
 // Refuses levels over kMaxLevel (out_of_range).
 Result<void> check_level(Index level);
 
-// What building a plan takes at most, and holding it: known before anything but the mesh's sizes is.
-Count plan_bytes(const ControlMesh& mesh, const PlanOptions& options);
+// What building a plan takes at most, and holding it: known before anything but the cage's sizes is.
+Count plan_bytes(const Cage& cage, const PlanOptions& options);
 
 class Plan {
  public:
-  // `mesh` must have passed check(). Fails for a level over kMaxLevel, for an unknown scheme, when the points
+  // Of a mesh that has passed check(). Fails for a level over kMaxLevel, for an unknown scheme, when the points
   // alone of max_level would take more than budget.max_bytes, and when the budget says to stop. Linear in the
-  // size of the mesh.
-  static Result<Plan> build(const ControlMesh& mesh, const PlanOptions& options, const Budget& budget);
+  // size of the cage.
+  static Result<Plan> build(const Cage& cage, const PlanOptions& options, const Budget& budget);
 
   const Net& net() const { return *nets_[0]; }  // of points, vertex and varying primvars
   const Net& channel_net(std::size_t k) const { return *nets_[k + 1]; }  // of the k-th face-varying primvar
@@ -50,10 +50,10 @@ class Plan {
   LevelCounts counts(Index level) const;
 
  private:
-  void add_channels(const ControlMesh& mesh, CreaseMethod method, const Pace& pace);
+  void add_channels(const Cage& cage, CreaseMethod method, const Pace& pace);
   std::shared_ptr<const Connectivity<Triangles>> connectivity_of(const RenderMesh& render,
                                                                  const Pace& pace) const;
-  void add_render_meshes(const ControlMesh& mesh, const Pace& pace);
+  void add_render_meshes(const Cage& cage, const Pace& pace);
 
   std::vector<std::shared_ptr<const Net>> nets_;
   std::vector<std::shared_ptr<const Connectivity<Triangles>>> render_meshes_;

@@ -215,6 +215,12 @@ TEST(ControlMeshCheck, rejects_an_element_size_of_zero_or_too_wide) {
     ControlMesh mesh = cube();
     mesh.primvars = {{"a", Interpolation::constant, size, {1}, {}}};
     expect_fault(mesh, ErrorCode::out_of_range, path({"primvars", "a", "elementSize"}));
+    // Creases are looked at first, by a cage that counts the values of such a primvar.
+    mesh.primvars[0].interpolation = Interpolation::face_varying;
+    mesh.crease_indices = {mesh.face_vertex_indices[0], mesh.face_vertex_indices[1]};
+    mesh.crease_lengths = {2};
+    mesh.crease_sharpnesses = {1};
+    expect_fault(mesh, ErrorCode::out_of_range, path({"primvars", "a", "elementSize"}));
   }
 }
 

@@ -285,6 +285,26 @@ TEST(engine, evaluates_one_plan_again_for_other_values) {
   }
 }
 
+TEST(engine, refines_other_values_by_the_plan_of_their_cage) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    SCOPED_TRACE(name);
+    const auto plan = Plan::build(mesh, {.max_level = 2}, {});
+    ASSERT_TRUE(plan.ok());
+    ControlMesh moved = mesh;
+    for (double& x : moved.points) x = 1 - 2 * x;
+    for (Primvar& primvar : moved.primvars)
+      for (double& x : primvar.values) x = 3 - x;
+    const RefineOptions options = {.level = 2, .limit = true};
+    const auto by_plan = refine<double>(moved, *plan, options, {}), anew = refine<double>(moved, options, {});
+    ASSERT_TRUE(by_plan.ok());
+    ASSERT_TRUE(std::ranges::equal(by_plan->points, anew->points));
+    ASSERT_TRUE(std::ranges::equal(by_plan->limit_points, anew->limit_points));
+    ASSERT_TRUE(std::ranges::equal(by_plan->triangles, anew->triangles));
+    for (std::size_t k = 0; k < mesh.primvars.size(); ++k)
+      ASSERT_TRUE(std::ranges::equal(by_plan->primvars[k].values, anew->primvars[k].values));
+  }
+}
+
 TEST(engine, stops_when_nobody_waits_any_more) {
   const std::atomic<bool> cancelled{true};
   Budget budget;
