@@ -83,9 +83,19 @@ bool receive_all(int fd, char* to, std::size_t size) {
   return true;
 }
 
+bool drop_all(int fd, std::size_t size) {
+  while (size > 0) {
+    const ssize_t got = ::recv(fd, nullptr, size, MSG_TRUNC);
+    if (got <= 0) return false;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
 }  // namespace
 
-Echo::Echo(std::size_t in, std::size_t out) : in_(in), out_(out), buffer_(std::max(in, out), 1) {
+Echo::Echo(std::size_t in, std::size_t out, Client::Body body)
+    : in_(in), out_(out), body_(body), buffer_(std::max(in, out), 1) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -115,9 +125,13 @@ Echo::~Echo() {
   }
 }
 
-bool Echo::exchange() { return send_all(fd_, buffer_.data(), in_) && receive_all(fd_, buffer_.data(), out_); }
+bool Echo::exchange() {
+  if (!send_all(fd_, buffer_.data(), in_)) return false;
+  return body_ == Client::Body::dropped ? drop_all(fd_, out_) : receive_all(fd_, buffer_.data(), out_);
+}
 
-Client::Client(int port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), answer_(kHeadRoom) {
+Client::Client(int port, Body body)
+    : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), body_(body), answer_(kHeadRoom) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<in_port_t>(port));
@@ -157,6 +171,8 @@ std::size_t Client::exchange(std::string_view request) {
   const std::string head(answer_.data(), body);
   const std::size_t length = number_after(head, "content-length: ");
   if (!head.starts_with("HTTP/1.1 200") || length == 0) return 0;
+  if (body_ == Body::dropped)
+    return have <= body + length && drop_all(fd_, body + length - have) ? length : 0;
   if (answer_.size() < body + length) answer_.resize(body + length);
   while (have < body + length) {
     const std::size_t got = receive(have);

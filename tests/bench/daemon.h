@@ -24,11 +24,31 @@ class Daemon {
   int port_ = 0;
 };
 
+// One connection, kept open.
+class Client {
+ public:
+  // What becomes of an answer's body: it is copied into a buffer that stays, or the kernel drops it, so that what
+  // is measured is the daemon and not how fast two processes on one machine share its memory.
+  enum class Body { kept, dropped };
+  explicit Client(int port, Body body = Body::kept);
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  // Sends the request and reads the whole answer. The body's length; 0 unless the answer is 200 and complete.
+  std::size_t exchange(std::string_view request);
+
+ private:
+  std::size_t receive(std::size_t at);
+  int fd_;
+  Body body_;
+  std::vector<char> answer_;
+};
+
 // A process that knows no HTTP: it reads a request of `in` bytes and sends `out` bytes that it has, again and
 // again. What the same bytes take on loopback without any work.
 class Echo {
  public:
-  Echo(std::size_t in, std::size_t out);
+  Echo(std::size_t in, std::size_t out, Client::Body body);
   ~Echo();
   Echo(const Echo&) = delete;
   Echo& operator=(const Echo&) = delete;
@@ -37,26 +57,10 @@ class Echo {
 
  private:
   std::size_t in_, out_;
+  Client::Body body_;
   std::vector<char> buffer_;
   pid_t pid_ = -1;
   int fd_ = -1;
-};
-
-// One connection, kept open.
-class Client {
- public:
-  explicit Client(int port);
-  ~Client();
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-  // Sends the request and reads the whole answer into a buffer that stays. The body's length; 0 unless the
-  // answer is 200 and complete.
-  std::size_t exchange(std::string_view request);
-
- private:
-  std::size_t receive(std::size_t at);
-  int fd_;
-  std::vector<char> answer_;
 };
 
 }  // namespace subdivd::bench

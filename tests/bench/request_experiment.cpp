@@ -41,12 +41,14 @@ double time_request(const Asset& asset, Index level, const Pace& pace, Results& 
       " HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/gltf-binary\r\nContent-Length: " +
       std::to_string(asset.glb.size()) + "\r\n\r\n" + asset.glb;
   const Daemon alone({"--request-threads", "1"}), threaded;
-  Client to_alone(alone.port()), to_threaded(threaded.port());
+  Client to_alone(alone.port(), Client::Body::dropped), to_threaded(threaded.port(), Client::Body::dropped);
+  Client reader(alone.port(), Client::Body::kept);
   // Warm: the daemon has answered, the client has room for the answer.
   std::size_t answer = 0;
   for (int k = 0; k < 3; ++k) {
     answer = to_alone.exchange(request);
-    if (answer == 0 || to_threaded.exchange(request) != answer) return 0;
+    if (answer == 0 || to_threaded.exchange(request) != answer || reader.exchange(request) != answer)
+      return 0;
   }
   std::vector<char> from(std::max(answer, request.size()), 1), to(from.size(), 1);
   const auto exchange = [&](Client& client, const char* quantity) -> Laps {
@@ -54,10 +56,11 @@ double time_request(const Asset& asset, Index level, const Pace& pace, Results& 
     if (client.exchange(request) != answer) return {};
     return {{quantity, stopwatch.lap()}};
   };
-  Echo echo(request.size(), answer);
+  Echo echo(request.size(), answer, Client::Body::dropped), read(request.size(), answer, Client::Body::kept);
   Contest contest;
   contest.enter("ours", [&] { return exchange(to_alone, "request"); });
   contest.enter("ours", [&] { return exchange(to_threaded, "request_threads"); });
+  contest.enter("ours", [&] { return exchange(reader, "request_read"); });
   contest.enter("ours", [&]() -> Laps {
     Stopwatch stopwatch;
     answer_in_process(asset.glb, level);
@@ -69,13 +72,15 @@ double time_request(const Asset& asset, Index level, const Pace& pace, Results& 
     std::memcpy(to.data(), from.data(), request.size());
     std::memcpy(to.data(), from.data(), answer);
     const double ms = stopwatch.lap();
-    return {{"request", ms}, {"request_threads", ms}, {"in_process", ms}};
+    return {{"request", ms}, {"request_threads", ms}, {"request_read", ms}, {"in_process", ms}};
   });
-  contest.enter("loopback", [&]() -> Laps {
+  const auto echoed = [](Echo& other, const char* quantity) -> Laps {
     Stopwatch stopwatch;
-    if (!echo.exchange()) return {};
-    return {{"request", stopwatch.lap()}};
-  });
+    if (!other.exchange()) return {};
+    return {{quantity, stopwatch.lap()}};
+  };
+  contest.enter("loopback", [&] { return echoed(echo, "request"); });
+  contest.enter("loopback", [&] { return echoed(read, "request_read"); });
   return contest.hold(pace, asset.name + ".L" + std::to_string(level), "request", results);
 }
 

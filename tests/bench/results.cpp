@@ -30,6 +30,7 @@ constexpr std::array kQuantities = {
     Quantity{"http", "GLB over HTTP (base: core)", "ms"},
     Quantity{"request", "request, 1 thread (base: warm)", "ms"},
     Quantity{"request_threads", "request, all threads (warm)", "ms"},
+    Quantity{"request_read", "request, 1 thread, read (warm)", "ms"},
     Quantity{"in_process", "request without HTTP (warm)", "ms"},
 };
 
@@ -50,6 +51,7 @@ constexpr std::array kRatios = {
     Ratio{"http_vs_core", "http", "base", true},
     Ratio{"request_vs_warm", "request", "base", true},
     Ratio{"request_threads_vs_warm", "request_threads", "base", true},
+    Ratio{"request_read_vs_warm", "request_read", "base", true},
     Ratio{"in_process_vs_warm", "in_process", "base", true},
 };
 
