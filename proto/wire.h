@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/byte_maker.h"
 #include "core/base/index.h"
 #include "core/curves/subdivision.h"
 #include "core/mesh/control_mesh.h"
@@ -120,10 +121,13 @@ RefineOptions mesh_options(const RefineRequest& request);
 CurveOptions curve_options(const RefineRequest& request, const ControlCurves& curves);
 PatchOptions patch_options(const RefineRequest& request, const ControlPatch& patch);
 
-// A piece of an answer's body: bytes and whatever keeps them alive.
+// A piece of an answer's body: bytes and whatever keeps them alive, or what makes them while they are sent.
 struct Chunk {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> bytes;
+  std::shared_ptr<ByteMaker> maker = nullptr;  // where it is set, `bytes` is empty
+
+  Count size() const { return maker ? maker->size() : bytes.size(); }
 
   static Chunk own(std::string text);
   template <class T, class Allocator>
@@ -138,7 +142,7 @@ struct Payload {
   std::vector<Chunk> chunks;  // sent one after the other
   Count size() const {
     Count total = 0;
-    for (const Chunk& chunk : chunks) total += chunk.bytes.size();
+    for (const Chunk& chunk : chunks) total += chunk.size();
     return total;
   }
 };

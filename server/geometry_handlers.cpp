@@ -37,7 +37,8 @@ Response payload_response(proto::Payload payload, const Phases& phases) {
   Response response;
   response.headers.emplace_back("Server-Timing", phases.header());
   response.content_type = std::move(payload.content_type);
-  for (proto::Chunk& chunk : payload.chunks) response.body.push_back({std::move(chunk.owner), chunk.bytes});
+  for (proto::Chunk& chunk : payload.chunks)
+    response.body.push_back({std::move(chunk.owner), chunk.bytes, std::move(chunk.maker)});
   return response;
 }
 
@@ -138,7 +139,7 @@ Response GeometryHandlers::granted(Request& request, const Attempt& attempt) {
     auto answer = attempt(budget);
     if (answer) {
       // While a slow client reads, the answer's own bytes stay set aside; the work's are free for others.
-      grant->keep_only(answer->size());
+      grant->keep_only(answer->held_bytes());
       answer->hold = std::move(grant);
       return *std::move(answer);
     }

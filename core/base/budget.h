@@ -41,6 +41,8 @@ class Budget {
   // Threads that may work on it as well, where it says how many it can use; null: they are made for it. Must
   // outlive the work.
   Helpers* helpers = nullptr;
+  // Threads that may work on one thing together: the caller's and all that help.
+  Index threads() const { return helpers == nullptr ? 1 : 1 + helpers->most(); }
   // Where memory is taken from; null: there is enough. Must outlive the work.
   MemoryGrant* memory = nullptr;
 

@@ -33,6 +33,15 @@ class FaceWriter {
   FaceWriter(const Connectivity<Triangles>& connectivity, Index level, const Pace& pace)
       : connectivity_(connectivity), n_(segments(level)), pace_(pace) {}
 
+  // Rows that are written one by one, for a face that is not written at once.
+  static bool has_rows(Count n) { return n > 8; }
+  static constexpr Count kRoomBehindRow = 18;  // that write_rows() may write to
+
+  // Triangles of the rows [begin, end) of a face; returns where they end.
+  Index* write_rows(Index face, Count begin, Count end, Index* out) const {
+    return write_rows(FaceNumbers(connectivity_, n_, face), begin, end, out);
+  }
+
   void write(Index face, Index* out) {
     if (n_ == 2) return write_four(face, out);
     const FaceNumbers numbers(connectivity_, n_, face);
@@ -42,7 +51,7 @@ class FaceWriter {
       case 8:
         return write_by_pattern<8>(numbers, out);
       default:
-        return write_by_rows(numbers, out);
+        write_rows(numbers, 0, n_, out);
     }
   }
 
@@ -95,14 +104,15 @@ class FaceWriter {
             right(numbers, j)};
   }
 
-  void write_by_rows(const FaceNumbers& numbers, Index* out) {
-    Row low = row(numbers, 0);
-    for (Count j = 0; j < n_; ++j) {
+  Index* write_rows(const FaceNumbers& numbers, Count begin, Count end, Index* out) const {
+    Row low = row(numbers, begin);
+    for (Count j = begin; j < end; ++j) {
       pace_.spend(n_ - j);
       const Row high = row(numbers, j + 1);
       out = write_row(low, high, n_ - j, out);
       low = high;
     }
+    return out;
   }
 
   // Triangles between a row of m segments and the one above it: two by two, (low i, low i+1, high i) and
@@ -160,6 +170,8 @@ class FaceWriter {
   const Pace& pace_;
 };
 
+constexpr Count indices_of_row(Count n, Count row) { return 3 * (2 * (n - row) - 1); }
+
 constexpr Count kWorthSharing = 1 << 16;  // indices: starting a thread takes as long
 
 }  // namespace
@@ -184,6 +196,52 @@ Result<void> write_triangles(const Connectivity<Triangles>& connectivity, Index 
       at += per_face;
     }
   });
+}
+
+TriangleStream::TriangleStream(std::shared_ptr<const Connectivity<Triangles>> connectivity, Index level,
+                               std::span<const unsigned char> holes)
+    : connectivity_(std::move(connectivity)),
+      level_(level),
+      holes_(holes.begin(), holes.end()),
+      index_count_(3 * triangles_per_face(level) * static_cast<Count>(std::ranges::count(holes, 0))) {}
+
+Count TriangleStream::least_room() const {
+  const Count n = segments(level_);
+  return FaceWriter::has_rows(n) ? indices_of_row(n, 0) + FaceWriter::kRoomBehindRow : 3 * n * n;
+}
+
+Count TriangleStream::next(std::span<Index> out) {
+  if (holes_.empty()) return 0;
+  const Count n = segments(level_);
+  const Pace unlimited;
+  FaceWriter writer(*connectivity_, level_, unlimited);
+  Count written = 0;
+  const auto room = [&] { return out.size() - written; };
+  for (; face_ < holes_.size(); ++face_) {
+    if (holes_[face_] != 0) continue;
+    if (!FaceWriter::has_rows(n)) {
+      if (room() < 3 * n * n) break;
+      writer.write(face_, &out[written]);
+      written += 3 * n * n;
+      continue;
+    }
+    Count end = row_, size = 0;
+    while (end < n && room() >= size + indices_of_row(n, end) + FaceWriter::kRoomBehindRow)
+      size += indices_of_row(n, end++);
+    if (end > row_) writer.write_rows(face_, row_, end, &out[written]);
+    written += size;
+    row_ = end % n;
+    if (end < n) break;
+  }
+  return written;
+}
+
+Result<Buffer<Index>> TriangleStream::all(Index threads, const Budget& budget) const {
+  Buffer<Index> indices(index_count_);
+  if (!holes_.empty())
+    if (auto done = write_triangles(*connectivity_, level_, holes_, indices.data(), threads, budget); !done)
+      return std::move(done).error();
+  return indices;
 }
 
 }  // namespace subdivd

@@ -44,6 +44,10 @@ class Plan {
   // Of the k-th render mesh, over its own vertices: a seam of any attribute is a border. Where it connects all
   // faces as a net does, it is that net's topology, and vertices have the same numbers at every level.
   const Connectivity<Triangles>& render_mesh(std::size_t k) const { return *render_meshes_[k]; }
+  // The same, to be kept.
+  const std::shared_ptr<const Connectivity<Triangles>>& shared_render_mesh(std::size_t k) const {
+    return render_meshes_[k];
+  }
   std::size_t render_mesh_count() const { return render_meshes_.size(); }
   std::span<const unsigned char> holes() const { return holes_; }  // per base face: 1 = not output
   // Vertices and edges of the refined mesh; triangles: holes left out.

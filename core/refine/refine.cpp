@@ -181,8 +181,8 @@ class Job {
       pace_.spend(256);
       for (; face < render.face_begin; ++face) faces += plan_.holes()[face] == 0;
       const auto triangle_begin = static_cast<Index>(faces * triangles_per_face(options_.level));
-      auto refined = refine_render_mesh(render, plan_.render_mesh(out_.render_meshes.size()), plan_,
-                                        options_.level, triangle_begin, options_.threads, budget_);
+      auto refined = refine_render_mesh(render, plan_.shared_render_mesh(out_.render_meshes.size()), plan_,
+                                        options_.level, triangle_begin, budget_);
       if (!refined) return std::move(refined).error();
       out_.render_meshes.push_back(std::move(*refined));
     }

@@ -10,6 +10,7 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/lattice/provenance.h"
+#include "core/lattice/triangles.h"
 #include "core/mesh/control_mesh.h"
 
 namespace subdivd {
@@ -32,7 +33,7 @@ struct RefinedPrimvar {
 struct RefinedRenderMesh {
   Index vertex_count = 0;
   Index triangle_begin = 0, triangle_end = 0;  // its range in RefinedMesh::triangles, counted in triangles
-  Buffer<Index> indices;                       // 3 per triangle, each < vertex_count
+  TriangleStream triangles;                    // 3 indices each, < vertex_count
   // For every render vertex the refined vertex whose position it copies, and for every face-varying primvar,
   // in their order, the refined value; kNoIndex: no output triangle uses it (inside a hole). An empty array:
   // that of the vertex's own number, for all.

@@ -13,18 +13,15 @@
 namespace subdivd {
 namespace {
 
-Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity<Triangles>& connectivity,
-                                 const Plan& plan, Index level, Index triangle_begin, Index threads,
-                                 const Budget& budget, const Pace& pace) {
+RefinedRenderMesh refine(const RenderMesh& mesh, std::shared_ptr<const Connectivity<Triangles>> shared,
+                         const Plan& plan, Index level, Index triangle_begin, const Pace& pace) {
+  const Connectivity<Triangles>& connectivity = *shared;
   const auto holes = plan.holes().subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
   RefinedRenderMesh refined;
   refined.vertex_count = static_cast<Index>(Numbering(connectivity, level).vertex_count());
-  const auto faces = static_cast<Count>(std::ranges::count(holes, 0));
+  refined.triangles = TriangleStream(std::move(shared), level, holes);
   refined.triangle_begin = triangle_begin;
-  refined.triangle_end = static_cast<Index>(triangle_begin + faces * triangles_per_face(level));
-  refined.indices.resize(3 * Count{refined.triangle_end - refined.triangle_begin});
-  if (auto done = write_triangles(connectivity, level, holes, refined.indices.data(), threads, budget); !done)
-    return std::move(done).error();
+  refined.triangle_end = static_cast<Index>(triangle_begin + refined.triangles.index_count() / 3);
   const auto sources = [&](const Net& net) -> Buffer<Index> {
     if (&connectivity == &net.topology()) return {};
     return vertex_sources(connectivity, net.topology(), mesh.face_begin, level, holes, pace);
@@ -39,11 +36,11 @@ Result<RefinedRenderMesh> refine(const RenderMesh& mesh, const Connectivity<Tria
 }  // namespace
 
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh,
-                                             const Connectivity<Triangles>& connectivity, const Plan& plan,
-                                             Index level, Index triangle_begin, Index threads,
+                                             std::shared_ptr<const Connectivity<Triangles>> connectivity,
+                                             const Plan& plan, Index level, Index triangle_begin,
                                              const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) {
-    return refine(mesh, connectivity, plan, level, triangle_begin, threads, budget, pace);
+    return refine(mesh, std::move(connectivity), plan, level, triangle_begin, pace);
   });
 }
 

@@ -2,6 +2,8 @@
 // Refined render meshes: connectivity only, numbered like everything else (split.h) over the render mesh's
 // own vertices, in which a seam of any attribute is a border.
 
+#include <memory>
+
 #include "core/base/budget.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
@@ -14,8 +16,8 @@ namespace subdivd {
 // this render mesh's. Takes time and memory for its own faces and vertices alone: a mesh may have a hundred
 // thousand of them.
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh,
-                                             const Connectivity<Triangles>& connectivity, const Plan& plan,
-                                             Index level, Index triangle_begin, Index threads,
+                                             std::shared_ptr<const Connectivity<Triangles>> connectivity,
+                                             const Plan& plan, Index level, Index triangle_begin,
                                              const Budget& budget);
 
 }  // namespace subdivd

@@ -80,7 +80,8 @@ Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const
   }
   for (const RenderMesh& render : mesh.render_meshes) {
     const Count faces = render.face_end - render.face_begin;
-    resident += kBytesPerRenderMesh + kBytesPerSource * plan.channel_count() + kBytesPerRenderFace * faces;
+    resident +=
+        kBytesPerRenderMesh + kBytesPerSource * plan.channel_count() + (kBytesPerRenderFace + 1) * faces;
     building = std::max(building, topology_building_bytes(render.vertex_count, faces));
   }
   return resident + std::max(building, evaluation);
@@ -131,18 +132,14 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
   }
   for (std::size_t k = 0; k < mesh.render_meshes.size(); ++k) {
     pace.spend(64);
-    const RenderMesh& render = mesh.render_meshes[k];
     const Count vertices = Numbering(plan.render_mesh(k), options.level).vertex_count();
     if (auto fits = check_count("render vertices", vertices); !fits) return std::move(fits).error();
-    const auto faces =
-        std::ranges::count(plan.holes().subspan(render.face_begin, render.face_end - render.face_begin), 0);
     size.render_vertices.push_back(vertices);
     const Connectivity<Triangles>& connectivity = plan.render_mesh(k);
     Count sources = &connectivity != &plan.net().topology();
     for (std::size_t c = 0; c < plan.channel_count(); ++c)
       sources += &connectivity != &plan.channel_net(c).topology();
-    size.bytes += vertices * sizeof(Index) * sources +
-                  3 * sizeof(Index) * static_cast<Count>(faces) * triangles_per_face(options.level);
+    size.bytes += vertices * sizeof(Index) * sources;
   }
   size.working_bytes = working_bytes<Real>(mesh, options, plan, pace);
   return size;

@@ -17,9 +17,7 @@ constexpr Count kPiece = Count{1} << 14;  // tuples between two looks at the clo
 // Tuples that one thread goes through while another would wake up.
 constexpr Count kWorthSharing = Count{1} << 18;
 
-Index thread_count(Count total, const Budget& budget) {
-  return total < kWorthSharing || budget.helpers == nullptr ? 1 : 1 + budget.helpers->most();
-}
+Index thread_count(Count total, const Budget& budget) { return total < kWorthSharing ? 1 : budget.threads(); }
 
 // So many tuples side by side, that a loop over them fills whole vectors for any number of components.
 constexpr Count kTuples = 8;

@@ -27,6 +27,26 @@ void append_word(std::string& out, Count word) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> (8 * i) & 0xff);
 }
 
+// Indices of fewer are written before the answer is sent: a request may have a hundred thousand small meshes.
+constexpr Count kWorthMaking = Count{1} << 18;
+constexpr Count kPieceIndices = Count{1} << 16;  // what the processor's cache holds
+
+// A refined mesh's indices, little-endian, 32 bits each.
+class IndexMaker final : public ByteMaker {
+ public:
+  explicit IndexMaker(TriangleStream triangles)
+      : triangles_(std::move(triangles)), piece_(std::max(kPieceIndices, triangles_.least_room())) {}
+
+  Count size() const override { return sizeof(Index) * triangles_.index_count(); }
+  std::span<const std::byte> next() noexcept override {
+    return std::as_bytes(std::span<const Index>(piece_).first(triangles_.next(piece_)));
+  }
+
+ private:
+  TriangleStream triangles_;
+  Buffer<Index> piece_;
+};
+
 std::string padding(Count size) { return std::string((4 - size % 4) % 4, '\0'); }
 
 // Out of the document and back, so that nothing is looked up for each of a hundred thousand accessors.
@@ -41,8 +61,8 @@ void put_back(Json& document, std::string_view name, Json::Array elements) {
 
 }  // namespace
 
-Output::Output(Json document, Chunk data, Work& work)
-    : document_(std::move(document)), work_(work), size_(data.bytes.size()) {
+Output::Output(Json document, Chunk data, Format format, Work& work)
+    : document_(std::move(document)), format_(format), work_(work), size_(data.bytes.size()) {
   if (!data.bytes.empty()) chunks_.push_back(std::move(data));
   views_ = taken_out(document_, "bufferViews");
   accessors_ = taken_out(document_, "accessors");
@@ -58,7 +78,7 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
   Json view;
   view.set("buffer", Json::number(Count{0}));
   view.set("byteOffset", Json::number(size_));
-  view.set("byteLength", Json::number(Count{data.bytes.size()}));
+  view.set("byteLength", Json::number(data.size()));
   view.set("target", Json::number(static_cast<Count>(target)));
   views_.push_back(std::move(view));
 
@@ -71,7 +91,7 @@ Index Output::add_accessor(Chunk data, Count count, Count component, std::string
     if (Json* found = bounds.find(bound)) accessor.set(bound, std::move(*found));
   accessors_.push_back(std::move(accessor));
 
-  size_ += data.bytes.size();
+  size_ += data.size();
   chunks_.push_back(std::move(data));
   if (std::string pad = padding(size_); !pad.empty()) {
     size_ += pad.size();
@@ -105,7 +125,18 @@ Result<Index> Output::add_indices(Buffer<Index> values, Index vertex_count) {
   return add_accessor(Chunk::own(std::move(narrow)), count, kUnsignedShort, "SCALAR", Target::indices, {});
 }
 
-Result<Payload> Output::finish(Format format, const std::shared_ptr<const void>& source,
+Result<Index> Output::add_indices(TriangleStream triangles, Index vertex_count) {
+  const Count count = triangles.index_count();
+  if (format_ == Format::glb && vertex_count > kMaxShortVertices && count >= kWorthMaking) {
+    const Chunk made{nullptr, {}, std::make_shared<IndexMaker>(std::move(triangles))};
+    return add_accessor(made, count, kUnsignedInt, "SCALAR", Target::indices, {});
+  }
+  auto indices = triangles.all(work_.budget().threads(), work_.budget());
+  if (!indices) return indices.error();
+  return add_indices(*std::move(indices), vertex_count);
+}
+
+Result<Payload> Output::finish(const std::shared_ptr<const void>& source,
                                const std::vector<Source::Foreign>& foreign) && {
   put_back(document_, "bufferViews", std::move(views_));
   put_back(document_, "accessors", std::move(accessors_));
@@ -113,13 +144,13 @@ Result<Payload> Output::finish(Format format, const std::shared_ptr<const void>&
     Json::Array& buffers = document_.array_member("buffers");
     if (buffers.empty()) buffers.emplace_back();
     buffers.front().set("byteLength", Json::number(size_));
-    if (format == Format::gltf) {
+    if (format_ == Format::gltf) {
       buffers.front().set("uri", Json::raw(std::string(1, kUriMark)));
     } else {
       buffers.front().erase("uri");
     }
   }
-  if (format == Format::gltf) return finish_gltf();
+  if (format_ == Format::gltf) return finish_gltf();
   return finish_glb(source, foreign);
 }
 

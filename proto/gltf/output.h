@@ -10,6 +10,7 @@
 
 #include "core/base/buffer.h"
 #include "core/base/result.h"
+#include "core/lattice/triangles.h"
 #include "proto/gltf/floats.h"
 #include "proto/gltf/source.h"
 #include "proto/wire.h"
@@ -22,7 +23,7 @@ class Output {
  public:
   // `data`: what buffer 0 holds already, a multiple of 4 bytes. What the answer's own bytes take was
   // predicted and asked for by whoever sends it; what else there must be beside them is asked for here.
-  Output(Json document, Chunk data, Work& work);
+  Output(Json document, Chunk data, Format format, Work& work);
 
   Json& primitive(Index mesh, Index primitive);
   // Both append one bufferView and one accessor and return the accessor's number.
@@ -30,10 +31,12 @@ class Output {
   Index add_floats(Buffer<float> values, Index components, const FloatScan& bounds);
   // Of 16 bits where `vertex_count` allows it.
   Result<Index> add_indices(Buffer<Index> values, Index vertex_count);
+  // The same; where they are many, they are made while the answer is sent.
+  Result<Index> add_indices(TriangleStream triangles, Index vertex_count);
 
   Json& asset() { return *document_.find("asset"); }
   // `source` owns `foreign` and stays alive as long as the answer.
-  Result<Payload> finish(Format format, const std::shared_ptr<const void>& source,
+  Result<Payload> finish(const std::shared_ptr<const void>& source,
                          const std::vector<Source::Foreign>& foreign) &&;
 
  private:
@@ -44,6 +47,7 @@ class Output {
   Result<Payload> finish_gltf();
 
   Json document_;
+  Format format_;
   Work& work_;
   Json::Array views_, accessors_;  // of the document, while they grow
   Json::Array* meshes_ = nullptr;  // null: the document has none

@@ -219,14 +219,14 @@ Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format for
   if (auto kept = work.keep(*bytes + arrays * kArrayBytes + slots * kSlotBytes); !kept) return kept.error();
   auto document = source->document.copy(work);
   if (!document) return document.error();
-  Output output(*std::move(document), Chunk{source, source->data}, work);
+  Output output(*std::move(document), Chunk{source, source->data}, format, work);
   Warnings warnings;
   const auto filled =
       std::visit([&](auto& real) { return fill(*source, real, output, warnings, work); }, answer);
   if (!filled) return filled.error();
   for (const std::string& sentence : warnings.sentences()) sentences.push_back(sentence);
   if (auto attached = attach(output.asset(), envelope, sentences, work); !attached) return attached.error();
-  return std::move(output).finish(format, source, source->foreign);
+  return std::move(output).finish(source, source->foreign);
 }
 
 }  // namespace subdivd::proto::gltf

@@ -21,6 +21,8 @@ Error not_single(const std::string& attribute) {
 
 constexpr Count kPiece = 16384;  // elements between two looks at the clock
 
+using Vector = std::array<double, 3>;
+
 template <class Real>
 class TrianglesWriter {
  public:
@@ -38,7 +40,9 @@ class TrianglesWriter {
   Result<Buffer<float>> normals(std::span<const float> positions);
   Result<Buffer<float>> attribute(const AttributeSlot& attribute);
   std::span<const Index> sources_of(const AttributeSlot& attribute) const;
+  Result<Vector> stand_in_normal(std::span<const float> positions, Index vertex, Count ordinal);
   Result<void> add(const std::string& name, Buffer<float> values, Index components);
+  Result<Index> add_indices();
 
   const TrianglesSlot& slot_;
   RefinedMesh<Real>& mesh_;
@@ -46,7 +50,8 @@ class TrianglesWriter {
   Warnings& warnings_;
   Work& work_;
   Index vertex_count_ = 0;
-  Buffer<Index> indices_;
+  Buffer<Index> indices_;                // once they are written
+  TriangleStream triangles_;             // until then
   RefinedRenderMesh* render_ = nullptr;  // null: vertices are the refined mesh's own
   Json attributes_;
 };
@@ -72,7 +77,7 @@ Result<void> TrianglesWriter<Real>::find_vertices() {
     return {};
   }
   render_ = &mesh_.render_meshes[slot_.render_mesh];
-  indices_ = std::move(render_->indices);
+  triangles_ = std::move(render_->triangles);
   vertex_count_ = render_->vertex_count;
   if (!render_->source_vertices.empty()) {
     const auto used = stand_in(render_->source_vertices, work_);
@@ -118,8 +123,6 @@ Result<Buffer<float>> TrianglesWriter<Real>::positions() {
       render_ != nullptr ? std::span<const Index>(render_->source_vertices) : std::span<const Index>());
 }
 
-using Vector = std::array<double, 3>;
-
 // Looking for a vertex's triangle is linear in the mesh. Not for more vertices than this, or a mesh of
 // nothing else takes its square; and not in longer meshes: one look takes 20 ms there.
 constexpr Count kMostLookedFor = 64, kLongestLookedThrough = 12'000'000;
@@ -138,6 +141,23 @@ Vector flat_normal(std::span<const float> positions, std::span<const Index> indi
   return {0, 0, 1};
 }
 
+// Of the vertex that is the `ordinal`-th that needs one. It is looked for among the indices, which are written for
+// that, earlier than needed: they are part of what was granted for the answer.
+template <class Real>
+Result<Vector> TrianglesWriter<Real>::stand_in_normal(std::span<const float> positions, Index vertex,
+                                                      Count ordinal) {
+  constexpr Vector kUpright{0, 0, 1};
+  if (ordinal >= kMostLookedFor) return kUpright;
+  if (indices_.empty() && triangles_.index_count() <= kLongestLookedThrough) {
+    auto written = triangles_.all(work_.budget().threads(), work_.budget());
+    if (!written) return written.error();
+    indices_ = *std::move(written);
+  }
+  if (indices_.empty() || indices_.size() > kLongestLookedThrough) return kUpright;
+  if (auto stop = work_.spend(indices_.size())) return *std::move(stop);
+  return flat_normal(positions, indices_, vertex);
+}
+
 template <class Real>
 Result<Buffer<float>> TrianglesWriter<Real>::normals(std::span<const float> positions) {
   Result<Buffer<float>> out =
@@ -150,11 +170,9 @@ Result<Buffer<float>> TrianglesWriter<Real>::normals(std::span<const float> posi
       if (auto stop = work_.spend(1024)) return *std::move(stop);
     float* normal = out->data() + Count{v} * 3;
     if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0) continue;
-    const bool look = ++stand_ins <= kMostLookedFor && indices_.size() <= kLongestLookedThrough;
-    if (look)
-      if (auto stop = work_.spend(indices_.size())) return *std::move(stop);
-    const Vector flat = look ? flat_normal(positions, indices_, v) : Vector{0, 0, 1};
-    std::ranges::transform(flat, normal, [](double x) { return static_cast<float>(x); });
+    const Result<Vector> flat = stand_in_normal(positions, v, stand_ins++);
+    if (!flat) return flat.error();
+    std::ranges::transform(*flat, normal, [](double x) { return static_cast<float>(x); });
   }
   if (stand_ins > 0)
     warnings_.add("NORMAL where the surface has none is a unit vector of no meaning; such vertices",
@@ -195,6 +213,14 @@ Result<void> TrianglesWriter<Real>::add(const std::string& name, Buffer<float> v
 }
 
 template <class Real>
+Result<Index> TrianglesWriter<Real>::add_indices() {
+  const Index vertices = std::max<Index>(vertex_count_, 1);
+  if (indices_.empty() && triangles_.index_count() == 0) indices_ = {0, 0, 0};
+  return indices_.empty() ? output_.add_indices(std::move(triangles_), vertices)
+                          : output_.add_indices(std::move(indices_), vertices);
+}
+
+template <class Real>
 Result<void> TrianglesWriter<Real>::write() {
   if (auto stop = work_.spend(256)) return *std::move(stop);
   if (auto found = find_vertices(); !found) return found;
@@ -203,7 +229,6 @@ Result<void> TrianglesWriter<Real>::write() {
   const bool empty = vertex_count_ == 0;
   auto points = empty ? Result<Buffer<float>>(Buffer<float>(3, 0.0f)) : positions();
   if (!points) return points.error();
-  if (indices_.empty()) indices_ = {0, 0, 0};
   Result<Buffer<float>> unit = Buffer<float>{0, 0, 1};
   if (slot_.normals && !empty) unit = normals(*points);
   if (!unit) return unit.error();
@@ -217,7 +242,7 @@ Result<void> TrianglesWriter<Real>::write() {
     if (!values) return values.error();
     if (auto added = add(slot.name, *std::move(values), slot.components); !added) return added;
   }
-  const auto accessor = output_.add_indices(std::move(indices_), std::max<Index>(vertex_count_, 1));
+  const auto accessor = add_indices();
   if (!accessor) return accessor.error();
   primitive.set("attributes", std::move(attributes_));
   primitive.set("indices", Json::number(Count{*accessor}));

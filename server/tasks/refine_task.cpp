@@ -22,8 +22,7 @@ constexpr Count kPointsWorthHelp = Count{1} << 18;
 
 RefineOptions mesh_options(const proto::RefineRequest& request, const Plan& plan, const Budget& budget) {
   RefineOptions options = proto::mesh_options(request);
-  if (budget.helpers != nullptr && plan.counts(options.level).vertices >= kPointsWorthHelp)
-    options.threads = 1 + budget.helpers->most();
+  if (plan.counts(options.level).vertices >= kPointsWorthHelp) options.threads = budget.threads();
   return options;
 }
 

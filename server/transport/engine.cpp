@@ -75,7 +75,7 @@ std::string http_date() {
 }
 
 // Writes a body piece by piece. It knows where it stands, and puts small parts together: an answer may
-// consist of hundreds of thousands of them.
+// consist of hundreds of thousands of them. What is made while it is sent is made here.
 class BodySender {
  public:
   explicit BodySender(std::shared_ptr<const Response> response) : response_(std::move(response)) {}
@@ -83,7 +83,8 @@ class BodySender {
   bool send_next(httplib::DataSink& sink) {
     const std::span<const std::byte> first = take(kSendBytes);
     if (first.empty()) return false;
-    if (first.size() >= kGatheredBytes || part_ == parts().size()) return write(sink, first);
+    if (first.size() >= kGatheredBytes || (rest_.empty() && part_ == parts().size()))
+      return write(sink, first);
     gathered_.assign(text(first));
     while (gathered_.size() < kGatheredBytes) {
       const std::span<const std::byte> next = take(kGatheredBytes - gathered_.size());
@@ -106,17 +107,20 @@ class BodySender {
 
   // The next bytes, at most so many and of one part; none: that was all.
   std::span<const std::byte> take(std::size_t most) {
-    while (part_ < parts().size() && offset_ == parts()[part_].bytes.size()) ++part_, offset_ = 0;
-    if (part_ == parts().size()) return {};
-    const std::span<const std::byte> rest = parts()[part_].bytes.subspan(offset_);
-    const std::span<const std::byte> taken = rest.first(std::min(rest.size(), most));
-    offset_ += taken.size();
-    if (taken.size() == rest.size()) ++part_, offset_ = 0;
+    while (rest_.empty()) {
+      if (part_ == parts().size()) return {};
+      const Bytes& part = parts()[part_];
+      rest_ = !part.maker ? part.bytes : part.maker->next();
+      if (!part.maker || rest_.empty()) ++part_;
+    }
+    const std::span<const std::byte> taken = rest_.first(std::min(rest_.size(), most));
+    rest_ = rest_.subspan(taken.size());
     return taken;
   }
 
   std::shared_ptr<const Response> response_;
-  std::size_t part_ = 0, offset_ = 0;
+  std::size_t part_ = 0;             // that comes after `rest_`, or makes more
+  std::span<const std::byte> rest_;  // of what was taken up
   std::string gathered_;
 };
 

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/byte_maker.h"
+
 namespace subdivd::server {
 
 using Field = std::pair<std::string, std::string>;
@@ -37,10 +39,14 @@ struct Request {
   }
 };
 
-// Bytes and whatever keeps them alive: big arrays are sent from where they were computed.
+// Bytes and whatever keeps them alive, for big arrays are sent from where they were computed; or what makes them
+// while they are sent.
 struct Bytes {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> bytes;
+  std::shared_ptr<ByteMaker> maker = nullptr;  // where it is set, `bytes` is empty
+
+  std::uint64_t size() const { return maker ? maker->size() : bytes.size(); }
 
   static Bytes of(std::string text) {
     auto kept = std::make_shared<const std::string>(std::move(text));
@@ -57,6 +63,12 @@ struct Response {
   bool close = false;                // end the connection afterwards
 
   std::uint64_t size() const {
+    std::uint64_t total = 0;
+    for (const Bytes& part : body) total += part.size();
+    return total;
+  }
+  // Of it, what stands in memory.
+  std::uint64_t held_bytes() const {
     std::uint64_t total = 0;
     for (const Bytes& part : body) total += part.bytes.size();
     return total;

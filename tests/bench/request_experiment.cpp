@@ -19,7 +19,11 @@ std::size_t answer_in_process(const std::string& glb, Index level) {
   request.options.level = level;
   request.options.format = proto::Format::glb;
   server::tasks::Phases phases;
-  return must(server::tasks::refine(request, kLimits, {}, phases)).size();
+  const proto::Payload payload = must(server::tasks::refine(request, kLimits, {}, phases));
+  for (const proto::Chunk& chunk : payload.chunks)  // what is made while it is sent
+    while (chunk.maker && !chunk.maker->next().empty()) {
+    }
+  return payload.size();
 }
 
 // The mesh refined, and nothing around it.
@@ -27,7 +31,8 @@ void refine_alone(const proto::RefineRequest& request) {
   const RefineOptions options = proto::mesh_options(request);
   for (const ControlMesh& mesh : request.meshes) {
     const Plan plan = must(Plan::build(mesh, plan_options(options), {}));
-    must(refine<float>(mesh, plan, options, {}));
+    const RefinedMesh<float> refined = must(refine<float>(mesh, plan, options, {}));
+    for (const RefinedRenderMesh& render : refined.render_meshes) must(render.triangles.all(1, {}));
   }
 }
 

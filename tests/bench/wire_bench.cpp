@@ -13,6 +13,7 @@
 #include "proto/decode.h"
 #include "server/tasks/refine_task.h"
 #include "tests/shapes/build.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::proto {
 namespace {
@@ -25,13 +26,6 @@ constexpr Limits kRoomy{.max_level = 8, .max_output_bytes = Count{8} << 30, .max
 [[maybe_unused]] const bool kWarm =
     mallopt(M_MMAP_MAX, 0) == 1 && mallopt(M_TRIM_THRESHOLD, 2'000'000'000) == 1;
 #endif
-
-std::string text_of(const Payload& payload) {
-  std::string text;
-  for (const Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
 
 // Texture coordinates with a seam across and a seam along the torus.
 Primvar texture(const ControlMesh& torus, Index side) {
@@ -75,7 +69,7 @@ AnyAnswer answer_to(const RefineRequest& request) { return *server::tasks::compu
 
 std::string glb_of(Index side, Content content) {
   const RefineRequest request = torus_request(side, Format::glb, content, 0);
-  return text_of(*encode_refine(request, answer_to(request)));
+  return test::text_of(*encode_refine(request, answer_to(request)));
 }
 
 // Every number as it is usually written: 6 decimals.

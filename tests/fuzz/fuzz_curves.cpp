@@ -14,6 +14,7 @@
 #include "proto/curve_task.h"
 #include "proto/problem.h"
 #include "server/tasks/compute_curves.h"
+#include "tests/support/payload_text.h"
 
 namespace {
 
@@ -24,15 +25,10 @@ void require(bool fact) {
   if (!fact) std::abort();
 }
 
-std::string text_of(const proto::Payload& payload) {
-  std::string text;
-  for (const proto::Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
-
 // nlohmann writes what is not finite as null; nothing but a missing direction may be that.
-void require_answer(const proto::Payload& payload) { require(nlohmann::json::accept(text_of(payload))); }
+void require_answer(const proto::Payload& payload) {
+  require(nlohmann::json::accept(test::text_of(payload)));
+}
 
 template <class Found>
 bool found(const Result<Found>& result) {

@@ -15,6 +15,7 @@
 #include "proto/decode.h"
 #include "proto/problem.h"
 #include "server/tasks/refine_task.h"
+#include "tests/support/payload_text.h"
 
 namespace {
 
@@ -50,13 +51,6 @@ void require_same_points(const nlohmann::json& document, const proto::RefineRequ
   require_same_points(document, "surfaces", request.single_surface_at_top, request.surfaces);
 }
 
-std::string text_of(const proto::Payload& payload) {
-  std::string text;
-  for (const proto::Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
-
 // A refusal late in the work (numbers that overflow) is an answer, too.
 void refine_and_encode(const proto::RefineRequest& request, const proto::Limits& limits) {
   for (ControlMesh other : request.meshes)
@@ -68,7 +62,7 @@ void refine_and_encode(const proto::RefineRequest& request, const proto::Limits&
   server::tasks::Phases phases;
   const auto payload = server::tasks::refine(request, limits, Budget{}, phases);
   if (!payload) return;
-  const std::string text = text_of(*payload);
+  const std::string text = test::text_of(*payload);
   require(nlohmann::json::accept(text));
   const auto again = proto::decode_refine(text, proto::BodyKind::json, {}, limits);
   // Holes and border faces may leave nothing; the answer of nothing is no request.

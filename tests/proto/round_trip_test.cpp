@@ -10,6 +10,7 @@
 
 #include "proto/json/text_writer.h"
 #include "tests/proto/support.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::proto::test {
 namespace {
@@ -19,7 +20,7 @@ std::string written(const std::vector<double>& values, std::size_t width, ArrayF
   EXPECT_EQ(writer.tuples(std::span<const double>(values), width, form), json::TextWriter::kAllFinite);
   Payload payload;
   payload.chunks = writer.finish();
-  return text_of(payload);
+  return subdivd::test::text_of(payload);
 }
 
 // Through our writer and our reader, as the points of a curve.
@@ -142,7 +143,7 @@ TEST(round_trip, floats_keep_their_bits) {
   ASSERT_EQ(writer.tuples(std::span<const float>(values), 3, ArrayForm::flat), json::TextWriter::kAllFinite);
   Payload payload;
   payload.chunks = writer.finish();
-  const auto request = decode(R"({"curves":[{"points":)" + text_of(payload) + "}]}");
+  const auto request = decode(R"({"curves":[{"points":)" + subdivd::test::text_of(payload) + "}]}");
   ASSERT_TRUE(request.ok());
   for (std::size_t i = 0; i < values.size(); ++i)
     ASSERT_EQ(std::bit_cast<std::uint32_t>(static_cast<float>(request->curves[0].points[i])),

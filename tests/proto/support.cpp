@@ -6,6 +6,7 @@
 
 #include "proto/problem.h"
 #include "server/tasks/refine_task.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::proto::test {
 
@@ -31,20 +32,13 @@ std::string message(std::string_view body, const QueryParameters& query) {
 
 Result<AnyAnswer> compute(const RefineRequest& request) { return server::tasks::compute(request, Limits{}); }
 
-std::string text_of(const Payload& payload) {
-  std::string text;
-  for (const Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
-
 Result<std::string> answer(std::string_view body, const QueryParameters& query, const Limits& limits) {
   Result<RefineRequest> request = decode(body, query, limits);
   if (!request) return request.error();
   server::tasks::Phases phases;
   Result<Payload> payload = server::tasks::refine(*request, limits, Budget{}, phases);
   if (!payload) return payload.error();
-  return text_of(*payload);
+  return subdivd::test::text_of(*payload);
 }
 
 std::uint64_t Random::next() {

@@ -24,8 +24,6 @@ std::string message(std::string_view body, const QueryParameters& query = {});
 // What the engine makes of the request, in its precision.
 Result<AnyAnswer> compute(const RefineRequest& request);
 
-std::string text_of(const Payload& payload);
-
 // Decoded, refined, encoded.
 Result<std::string> answer(std::string_view body, const QueryParameters& query = {},
                            const Limits& limits = {});

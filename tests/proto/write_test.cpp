@@ -8,6 +8,7 @@
 
 #include "proto/json/json.h"
 #include "tests/proto/support.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::proto::test {
 namespace {
@@ -165,7 +166,7 @@ TEST(write, big_answers_come_in_chunks) {
   ASSERT_TRUE(payload.ok());
   EXPECT_GT(payload->chunks.size(), 2u);
   for (const Chunk& chunk : payload->chunks) EXPECT_LE(chunk.bytes.size(), std::size_t{1} << 20);
-  EXPECT_EQ(json::parse(text_of(*payload))["points"].size(), 257u * 258 / 2);
+  EXPECT_EQ(json::parse(subdivd::test::text_of(*payload))["points"].size(), 257u * 258 / 2);
 }
 
 oracle::Report report_with_a_failure() {
@@ -233,7 +234,7 @@ TEST(write, a_report_alone_has_options_and_statistics) {
   ASSERT_TRUE(request.ok());
   const auto payload = encode_report(*request, report_with_a_failure());
   ASSERT_TRUE(payload.ok());
-  const json one = json::parse(text_of(*payload));
+  const json one = json::parse(subdivd::test::text_of(*payload));
   EXPECT_EQ(one["verification"]["oracle"], "OpenSubdiv");
   EXPECT_EQ(one["statistics"]["meshes"][0]["input"]["points"], 3);
 }
@@ -246,7 +247,7 @@ TEST(write, a_verification_is_a_member_of_the_answer) {
   std::get<RefineAnswer<double>>(*computed).verification = report_with_a_failure();
   const auto payload = encode_refine(*request, std::move(*computed));
   ASSERT_TRUE(payload.ok());
-  EXPECT_EQ(json::parse(text_of(*payload))["verification"]["passed"], false);
+  EXPECT_EQ(json::parse(subdivd::test::text_of(*payload))["verification"]["passed"], false);
 }
 
 }  // namespace

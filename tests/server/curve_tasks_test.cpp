@@ -12,6 +12,7 @@
 #include "core/splines/edit.h"
 #include "core/splines/spline.h"
 #include "server/tasks/compute_curves.h"
+#include "tests/support/payload_text.h"
 #include "tests/support/purse.h"
 
 namespace subdivd::server::tasks {
@@ -36,13 +37,6 @@ json with(json curve, const json& members) {
 }
 json four_point() { return with(cubic(), {{"basis", "fourPoint"}, {"wrap", "periodic"}}); }
 
-std::string text_of(const proto::Payload& payload) {
-  std::string text;
-  for (const proto::Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
-
 // The answer's JSON, or the code and the first place of the refusal.
 json ask(Kind kind, const json& body, const Budget& budget = {}) {
   const auto refusal = [](const Error& error) {
@@ -56,19 +50,22 @@ json ask(Kind kind, const json& body, const Budget& budget = {}) {
   if (auto bytes = predict_curve_task(*request, Count{1} << 30); !bytes) return refusal(bytes.error());
   if (kind == Kind::evaluate && request->task.on_surfaces) {
     auto samples = compute_surface_samples(*request, budget);
-    return samples ? json::parse(text_of(*encode_samples(*request, *samples))) : refusal(samples.error());
+    return samples ? json::parse(test::text_of(*encode_samples(*request, *samples)))
+                   : refusal(samples.error());
   }
   if (kind == Kind::evaluate) {
     auto samples = compute_samples(*request, budget);
-    return samples ? json::parse(text_of(*encode_samples(*request, *samples))) : refusal(samples.error());
+    return samples ? json::parse(test::text_of(*encode_samples(*request, *samples)))
+                   : refusal(samples.error());
   }
   if (kind == Kind::measure) {
     auto measures = compute_measures(*request, budget);
-    return measures ? json::parse(text_of(*encode_measures(*request, *measures))) : refusal(measures.error());
+    return measures ? json::parse(test::text_of(*encode_measures(*request, *measures)))
+                    : refusal(measures.error());
   }
   auto edited = compute_edited(*request, budget);
   if (!edited) return refusal(edited.error());
-  return json::parse(text_of(*encode_edited(*request, *std::move(edited))));
+  return json::parse(test::text_of(*encode_edited(*request, *std::move(edited))));
 }
 
 TEST(CurveTasks, evaluate_points_derivatives_and_frames) {

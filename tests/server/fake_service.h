@@ -2,9 +2,13 @@
 // A service that answers with what it was asked, or misbehaves when told to by the path, and a transport
 // that carries it.
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <memory>
 #include <mutex>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -35,6 +39,7 @@ class FakeService final : public Service {
     if (request.path == "/stuck") return stuck();
     if (request.path == "/large") return large();
     if (request.path == "/crumbs") return crumbs();
+    if (request.path == "/made") return made();
     if (request.path == "/wait") return wait(request);
     if (request.path == "/peer") return text(200, request.peer);
     if (request.path == "/size") return text(200, std::to_string(request.body.size()));
@@ -65,7 +70,16 @@ class FakeService final : public Service {
     return response;
   }
 
-  static constexpr std::size_t kLargePart = 3'000'000, kCrumbs = 200'000;
+  // Parts that are made while they are sent, one of no bytes among them, beside others.
+  static Response made() {
+    Response response = text(200, "begin");
+    for (const std::size_t pieces : {kMadePieces, std::size_t{0}, std::size_t{1}})
+      response.body.push_back({nullptr, {}, std::make_shared<Maker>(pieces)});
+    response.body.push_back(Bytes::of("end"));
+    return response;
+  }
+
+  static constexpr std::size_t kLargePart = 3'000'000, kCrumbs = 200'000, kMadePieces = 5000;
   std::atomic<bool> refuse_throws = false, record_throws = false;
   std::atomic<bool> let_go = false;                  // ends /wait and /stuck
   std::atomic<int> waiting = 0, seen_cancelled = 0;  // requests in /wait; those that were cancelled there
@@ -89,6 +103,29 @@ class FakeService final : public Service {
     response.body.push_back(Bytes::of("end"));
     return response;
   }
+
+  // Pieces of every size up to a hundred bytes and a few large ones, each over the one before it.
+  class Maker final : public ByteMaker {
+   public:
+    explicit Maker(std::size_t pieces) : pieces_(pieces) {}
+    Count size() const override {
+      Count total = 0;
+      for (std::size_t k = 1; k <= pieces_; ++k) total += size_of(k);
+      return total;
+    }
+    std::span<const std::byte> next() noexcept override {
+      if (at_ == pieces_) return {};
+      ++at_;
+      std::fill(piece_.begin(), piece_.end(), static_cast<std::byte>('a' + at_ % 26));
+      return std::span<const std::byte>(piece_).first(size_of(at_));
+    }
+
+   private:
+    static std::size_t size_of(std::size_t k) { return k % 1000 == 0 ? kPiece : 1 + k % 100; }
+    static constexpr std::size_t kPiece = 200'000;
+    std::size_t pieces_, at_ = 0;
+    std::vector<std::byte> piece_ = std::vector<std::byte>(kPiece);
+  };
 
   // As /wait, but it cannot be cancelled.
   Response stuck() {

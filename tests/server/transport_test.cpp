@@ -147,6 +147,23 @@ TEST(Transport, sends_a_body_of_very_many_small_parts_whole) {
   expected.append(FakeService::kLargePart, 'z').append("end");
   EXPECT_TRUE(response.body == expected) << response.body.size() << " of " << expected.size() << " bytes";
 }
+TEST(Transport, sends_what_is_made_while_it_is_sent) {
+  const RunningTransport server;
+  const auto made = [](std::size_t pieces) {
+    std::string text;
+    for (std::size_t k = 1; k <= pieces; ++k)
+      text.append(k % 1000 == 0 ? 200'000 : 1 + k % 100, static_cast<char>('a' + k % 26));
+    return text;
+  };
+  RawClient client(server.port);
+  client.send(get("/made"));
+  const RawResponse response = client.receive();
+  const std::string expected = "begin" + made(FakeService::kMadePieces) + made(1) + "end";
+  ASSERT_TRUE(response.complete);
+  EXPECT_TRUE(response.body == expected) << response.body.size() << " of " << expected.size() << " bytes";
+  client.send(get("/after"));
+  EXPECT_EQ(client.receive().body, "GET /after\n");
+}
 TEST(Transport, sends_large_bodies_whole) {
   const RunningTransport server;
   const RawResponse response = ask(server.port, get("/large"));

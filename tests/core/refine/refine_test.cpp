@@ -25,7 +25,7 @@ Count bytes_of(const RefinedMesh<Real>& mesh) {
     bytes += bytes_of(primvar.values) + bytes_of(primvar.limit_values) + bytes_of(primvar.indices);
   for (const auto& render : mesh.render_meshes) {
     for (const auto& sources : render.source_values) bytes += bytes_of(sources);
-    bytes += bytes_of(render.indices) + bytes_of(render.source_vertices);
+    bytes += bytes_of(render.source_vertices);
   }
   return bytes;
 }

@@ -5,17 +5,11 @@
 
 #include "proto/decode.h"
 #include "server/tasks/refine_task.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::test {
 
 using namespace proto;
-
-std::string to_string(const Payload& payload) {
-  std::string text;
-  for (const Chunk& chunk : payload.chunks)
-    text.append(reinterpret_cast<const char*>(chunk.bytes.data()), chunk.bytes.size());
-  return text;
-}
 
 std::string to_pointer(const Path& path) {
   std::string pointer;
@@ -37,7 +31,7 @@ Result<Outcome> answer(RefineRequest request) {
   server::tasks::Phases phases;
   const auto payload = server::tasks::refine(request, Limits{}, Budget{}, phases);
   if (!payload) return payload.error();
-  return Outcome{std::move(request), predicted->answer_bytes, to_string(*payload)};
+  return Outcome{std::move(request), predicted->answer_bytes, text_of(*payload)};
 }
 
 Result<Outcome> refine_gltf(const std::string& body, Format format, Options options, const Limits& limits) {

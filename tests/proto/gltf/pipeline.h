@@ -24,7 +24,6 @@ Outcome must_refine(const std::string& body, proto::Options options = {},
 proto::RefineRequest must_read(const std::string& body, proto::Options options = {},
                                proto::Format format = proto::Format::glb);
 
-std::string to_string(const proto::Payload& payload);
 std::string to_pointer(const Path& path);
 
 }  // namespace subdivd::test

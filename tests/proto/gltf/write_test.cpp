@@ -4,8 +4,10 @@
 #include <cstring>
 
 #include "proto/decode.h"
+#include "server/tasks/refine_task.h"
 #include "tests/proto/gltf/pipeline.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/payload_text.h"
 
 namespace subdivd::test {
 namespace {
@@ -55,6 +57,29 @@ TEST(WriteTriangles, quadruples_triangles_at_every_level) {
     EXPECT_EQ(glb.json["accessors"][primitive_of(glb)["indices"].get<std::size_t>()]["count"],
               12u << (2 * level));
   }
+}
+
+// Of a GLB the many indices of a large mesh are made while it is sent; in glTF they stand in the text.
+TEST(WriteTriangles, makes_many_indices_late_and_the_same) {
+  Options options = at_level(8);
+  options.format = Format::glb;
+  proto::RefineRequest request = must_read(seamed_octahedron().glb(), options);
+  server::tasks::Phases phases;
+  const auto payload = server::tasks::refine(request, {}, {}, phases);
+  ASSERT_TRUE(payload.ok());
+  std::size_t made = 0;
+  for (const proto::Chunk& chunk : payload->chunks) made += chunk.maker != nullptr;
+  EXPECT_EQ(made, 2u);  // one for each primitive
+  const std::string bytes = text_of(*payload);
+  EXPECT_EQ(bytes.size(), payload->size());
+  const ParsedGlb glb = parse_glb(bytes);
+
+  options.format = Format::gltf;
+  const auto embedded = OrderedJson::parse(must_refine(seamed_octahedron().glb(), options).bytes);
+  const auto uri = embedded["buffers"][0]["uri"].get<std::string>();
+  EXPECT_TRUE(uri.ends_with(base64(glb.bin)));
+  EXPECT_EQ(embedded["accessors"], glb.json["accessors"]);
+  EXPECT_EQ(embedded["bufferViews"], glb.json["bufferViews"]);
 }
 
 TEST(WriteTriangles, gives_both_sides_of_a_seam_the_same_positions) {

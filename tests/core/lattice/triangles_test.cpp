@@ -1,0 +1,84 @@
+#include "core/lattice/triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/lattice/split.h"
+#include "tests/shapes/build.h"
+#include "tests/shapes/shapes.h"
+
+namespace subdivd {
+namespace {
+
+std::shared_ptr<const Connectivity<Triangles>> connectivity_of(const ControlMesh& mesh) {
+  return std::make_shared<const Connectivity<Triangles>>(static_cast<Index>(mesh.point_count()),
+                                                         Triangles(mesh.face_vertex_indices));
+}
+
+constexpr Index kUntouched = kNoIndex - 7;
+
+// All that next() writes, asked for in pieces of `room`.
+std::vector<Index> in_pieces(TriangleStream stream, Count room) {
+  std::vector<Index> all, piece(room + 1, kUntouched);
+  for (Count count; (count = stream.next(std::span(piece).first(room))) > 0;) {
+    EXPECT_EQ(count % 3, 0u);
+    EXPECT_LE(count, room);
+    all.insert(all.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  EXPECT_EQ(piece.back(), kUntouched);  // nothing is written behind the room
+  EXPECT_EQ(stream.next(piece), 0u);
+  return all;
+}
+
+void expect_whole(const ControlMesh& mesh, Index level, std::span<const unsigned char> holes) {
+  const TriangleStream stream(connectivity_of(mesh), level, holes);
+  const Buffer<Index> whole = *stream.all(1, {});
+  const std::vector<Index> expected(whole.begin(), whole.end());
+  ASSERT_EQ(stream.index_count(), expected.size());
+  for (const Count more : {Count{0}, Count{1}, Count{50}, expected.size() + 100})
+    ASSERT_EQ(in_pieces(stream, stream.least_room() + more), expected) << level << " " << more;
+}
+
+TEST(TriangleStream, makes_in_pieces_what_is_written_at_once) {
+  for (const auto& [name, mesh] : shapes::all_shapes())
+    for (Index level = 0; level <= 5; ++level) {
+      SCOPED_TRACE(name);
+      if (mesh.face_count() * triangles_per_face(level) > 100'000) continue;
+      expect_whole(mesh, level, std::vector<unsigned char>(mesh.face_count(), 0));
+    }
+}
+
+TEST(TriangleStream, leaves_holes_out_wherever_they_are) {
+  const ControlMesh mesh = shapes::cube();
+  std::vector<std::vector<unsigned char>> all = {std::vector<unsigned char>(mesh.face_count(), 1)};
+  for (const std::size_t begin : {0, 5, 11}) {
+    all.emplace_back(mesh.face_count(), 0);
+    for (std::size_t face = begin; face < mesh.face_count(); face += 2) all.back()[face] = 1;
+  }
+  for (const auto& holes : all)
+    for (const Index level : {0, 1, 3, 4, 6}) expect_whole(mesh, level, holes);
+}
+
+TEST(TriangleStream, of_nothing_is_empty) {
+  TriangleStream stream;
+  EXPECT_EQ(stream.index_count(), 0u);
+  std::vector<Index> piece(1000);
+  EXPECT_EQ(stream.next(piece), 0u);
+  EXPECT_TRUE(stream.all(1, {})->empty());
+}
+
+// A face of the deepest level has 3 * 2^30 indices; its rows are made one by one.
+TEST(TriangleStream, needs_room_for_a_row_and_not_for_a_face) {
+  ControlMesh mesh;
+  mesh.points.resize(9);
+  mesh.face_vertex_indices = {0, 1, 2};
+  TriangleStream stream(connectivity_of(mesh), kMaxLevel, std::vector<unsigned char>(1, 0));
+  EXPECT_LT(stream.least_room(), Count{1} << 18);
+  std::vector<Index> piece(stream.least_room());
+  EXPECT_EQ(stream.next(piece), 3 * (2 * segments(kMaxLevel) - 1));
+}
+
+}  // namespace
+}  // namespace subdivd
