@@ -1,6 +1,7 @@
 #pragma once
-// THE table of options; those that a scheme has come from the list of schemes. Query parameters, the body's `options`, the echo of effective options, the messages
-// that list valid values and the parameters of the OpenAPI document all come from it.
+// THE table of options; those that a scheme has come from the list of schemes. Query parameters, the body's
+// `options`, the echo of effective options, the messages that list valid values and the parameters of the
+// OpenAPI document all come from it.
 
 #include <cstdint>
 #include <functional>
@@ -69,8 +70,8 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
 // the text is a valid `options` member of a request.
 std::string effective_options(const RefineRequest& request);
 
-// The parameters of the OpenAPI document's components: an object of Parameter Objects by name. `options_schema` is
-// the schema of the body's `options`.
+// The parameters of the OpenAPI document's components: an object of Parameter Objects by name.
+// `options_schema` is the schema of the body's `options`.
 std::string openapi_parameters();
 std::string options_schema();
 

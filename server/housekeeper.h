@@ -1,7 +1,7 @@
 #pragma once
 // Gives memory back to the system that requests have freed. The allocator and core/base/large_blocks keep it
-// for the next request, which saves page faults (up to half of the time of a request with a large answer), but
-// would keep the peak of the busiest minute for ever.
+// for the next request, which saves page faults (up to half of the time of a request with a large answer),
+// but would keep the peak of the busiest minute for ever.
 
 #include <condition_variable>
 #include <cstdint>
@@ -42,7 +42,8 @@ class Housekeeper {
 };
 
 // Makes the allocator keep freed memory, in few places, where other threads find it again: of large blocks
-// `kept` bytes at most, and together with those in use no more than `ceiling`; of others a quarter of that. Call before any thread starts.
+// `kept` bytes at most, and together with those in use no more than `ceiling`; of others a quarter of that.
+// Call before any thread starts.
 void tune_allocator(std::uint64_t kept, std::uint64_t ceiling);
 
 // Bytes of physical memory that this process takes; 0 when the system does not tell.

@@ -20,15 +20,16 @@ struct Route {
   bool takes_gltf = false;  // POST: as a body, beside JSON
 };
 
-// Whether `path` is one of the route's; what stands in the places of braces comes back in `values`, in order, if
-// that is not null.
+// Whether `path` is one of the route's; what stands in the places of braces comes back in `values`, in order,
+// if that is not null.
 bool matches(std::string_view route, std::string_view path, std::vector<std::string>* values);
 
 class Router {
  public:
   explicit Router(std::vector<Route> routes) : routes_(std::move(routes)) {}
 
-  // Null when path or method are not known; allowed_methods tells the two apart. Of several the first in the list.
+  // Null when path or method are not known; allowed_methods tells the two apart. Of several the first in the
+  // list.
   const Route* find(std::string_view method, std::string_view path) const;
   // "GET, HEAD, POST, OPTIONS" of a path, as Allow says it; empty: no such path. "*": of all paths together.
   std::string allowed_methods(std::string_view path) const;

@@ -1,6 +1,6 @@
 #pragma once
-// What a piece of work may use: bytes, time, threads, and the patience of whoever asked. Every loop that can run
-// long polls the budget; sizes are predicted and checked against it before anything is allocated.
+// What a piece of work may use: bytes, time, threads, and the patience of whoever asked. Every loop that can
+// run long polls the budget; sizes are predicted and checked against it before anything is allocated.
 
 #include <atomic>
 #include <chrono>

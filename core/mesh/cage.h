@@ -1,6 +1,7 @@
 #pragma once
-// The cage: of a control mesh what does not depend on values, that is faces and the tags that say how they are
-// refined. A plan is made from it alone, so that other points and primvars can be refined by the same plan.
+// The cage: of a control mesh what does not depend on values, that is faces and the tags that say how they
+// are refined. A plan is made from it alone, so that other points and primvars can be refined by the same
+// plan.
 
 #include <span>
 #include <string_view>
@@ -38,8 +39,8 @@ struct RenderMesh {
   std::vector<Index> indices;  // 3 per face, each < vertex_count
 };
 
-// Refers to the arrays of a control mesh that outlives it; control_mesh.h says what they hold. Whoever wants a cage
-// wants that of a mesh that has passed check(), unless they say otherwise.
+// Refers to the arrays of a control mesh that outlives it; control_mesh.h says what they hold. Whoever wants
+// a cage wants that of a mesh that has passed check(), unless they say otherwise.
 struct Cage {
   // Implicit: a control mesh is taken wherever a cage is wanted.
   Cage(const ControlMesh& mesh);

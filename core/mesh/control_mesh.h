@@ -1,5 +1,5 @@
 #pragma once
-// The control mesh (cage) exactly as the caller gave it: points, faces, tags, primvars.
+// The control mesh exactly as the caller gave it: points, faces, tags, primvars.
 // Field names and defaults are OpenUSD's UsdGeomMesh. Values are kept in double: every float is a double,
 // so nothing is lost, and the engines convert once.
 

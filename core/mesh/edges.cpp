@@ -48,8 +48,8 @@ class EdgeFinder {
   }
 
  private:
-  // Half-edges that need no look at the room that is left, nor for their ends: a whole face where all are of one
-  // size.
+  // Half-edges that need no look at the room that is left, nor for their ends: a whole face where all are of
+  // one size.
   static constexpr Index kAtOnce = [] {
     if constexpr (requires { Faces::size; }) return Faces::size;
     return Index{1};

@@ -1,9 +1,10 @@
 #pragma once
-// How the corners of a mesh's faces are numbered: all triangles, all quads, or polygons of any sizes. Adjacency
-// (connectivity.h, topology.h) is compiled for each of them, so that one size costs no look-up.
+// How the corners of a mesh's faces are numbered: all triangles, all quads, or polygons of any sizes.
+// Adjacency (connectivity.h, topology.h) is compiled for each of them, so that one size costs no look-up.
 //
-// A half-edge h runs from a corner of a face to the next corner of that face, counter-clockwise; the same number
-// names the corner that it leaves. Faces follow one another, those of face f are begin(f) to begin(f + 1) - 1.
+// A half-edge h runs from a corner of a face to the next corner of that face, counter-clockwise; the same
+// number names the corner that it leaves. Faces follow one another, those of face f are begin(f) to
+// begin(f + 1) - 1.
 //
 //          v2          next(h): the following half-edge of the face
 //         /  ^         prev(h): the one before

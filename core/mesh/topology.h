@@ -1,6 +1,6 @@
 #pragma once
-// What touches what in a mesh of any kind, manifold or not. The fast way round vertices by half-edges; faces.h
-// says what those are.
+// What touches what in a mesh of any kind, manifold or not. The fast way round vertices by half-edges;
+// faces.h says what those are.
 
 #include <algorithm>
 #include <array>
@@ -207,8 +207,8 @@ extern template class Topology<Triangles>;
 extern template class Topology<Quads>;
 extern template class Topology<Polygons>;
 
-// What building a topology of triangles takes beside what it holds in the end, at most: the edges' homes while they are
-// found (edges.cpp), room for edges that grows, half-edges between hubs.
+// What building a topology of triangles takes beside what it holds in the end, at most: the edges' homes
+// while they are found (edges.cpp), room for edges that grows, half-edges between hubs.
 inline Count topology_building_bytes(Count vertices, Count faces) {
   const bool has_homes = vertices <= 3 * faces;
   return 84 * faces + (has_homes ? 68 * vertices : 8 * vertices + 36 * faces);

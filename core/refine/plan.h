@@ -33,16 +33,16 @@ Count plan_bytes(const Cage& cage, const PlanOptions& options);
 
 class Plan {
  public:
-  // Of a mesh that has passed check(). Fails for a level over kMaxLevel, for an unknown scheme, when the points
-  // alone of max_level would take more than budget.max_bytes, and when the budget says to stop. Linear in the
-  // size of the cage.
+  // Of a mesh that has passed check(). Fails for a level over kMaxLevel, for an unknown scheme, when the
+  // points alone of max_level would take more than budget.max_bytes, and when the budget says to stop. Linear
+  // in the size of the cage.
   static Result<Plan> build(const Cage& cage, const PlanOptions& options, const Budget& budget);
 
   const Net& net() const { return *nets_[0]; }  // of points, vertex and varying primvars
   const Net& channel_net(std::size_t k) const { return *nets_[k + 1]; }  // of the k-th face-varying primvar
   std::size_t channel_count() const { return nets_.size() - 1; }
-  // Of the k-th render mesh, over its own vertices: a seam of any attribute is a border. Where it connects all
-  // faces as a net does, it is that net's topology, and vertices have the same numbers at every level.
+  // Of the k-th render mesh, over its own vertices: a seam of any attribute is a border. Where it connects
+  // all faces as a net does, it is that net's topology, and vertices have the same numbers at every level.
   const Connectivity<Triangles>& render_mesh(std::size_t k) const { return *render_meshes_[k]; }
   // The same, to be kept.
   const std::shared_ptr<const Connectivity<Triangles>>& shared_render_mesh(std::size_t k) const {

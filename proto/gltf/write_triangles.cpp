@@ -141,8 +141,8 @@ Vector flat_normal(std::span<const float> positions, std::span<const Index> indi
   return {0, 0, 1};
 }
 
-// Of the vertex that is the `ordinal`-th that needs one. It is looked for among the indices, which are written for
-// that, earlier than needed: they are part of what was granted for the answer.
+// Of the vertex that is the `ordinal`-th that needs one. It is looked for among the indices, which are
+// written for that, earlier than needed: they are part of what was granted for the answer.
 template <class Real>
 Result<Vector> TrianglesWriter<Real>::stand_in_normal(std::span<const float> positions, Index vertex,
                                                       Count ordinal) {

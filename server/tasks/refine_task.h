@@ -1,6 +1,6 @@
 #pragma once
-// Meshes, curves and surfaces refined, or compared with OpenSubdiv: from a decoded request to the bytes of the
-// answer. Not a word of HTTP, so that handlers, benches and tests call the same code.
+// Meshes, curves and surfaces refined, or compared with OpenSubdiv: from a decoded request to the bytes of
+// the answer. Not a word of HTTP, so that handlers, benches and tests call the same code.
 
 #include "core/base/budget.h"
 #include "core/base/result.h"
@@ -9,9 +9,9 @@
 
 namespace subdivd::server::tasks {
 
-// Refines in the request's answer_format and precision; with a report when its options ask for one. All memory
-// is predicted and taken from the budget before it is used. Ends the phases "plan", "refine", "verify" (if
-// any), "write".
+// Refines in the request's answer_format and precision; with a report when its options ask for one. All
+// memory is predicted and taken from the budget before it is used. Ends the phases "plan", "refine", "verify"
+// (if any), "write".
 Result<proto::Payload> refine(const proto::RefineRequest& request, const proto::Limits& limits,
                               const Budget& budget, Phases& phases);
 

@@ -39,8 +39,8 @@ struct Request {
   }
 };
 
-// Bytes and whatever keeps them alive, for big arrays are sent from where they were computed; or what makes them
-// while they are sent.
+// Bytes and whatever keeps them alive, for big arrays are sent from where they were computed; or what makes
+// them while they are sent.
 struct Bytes {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> bytes;

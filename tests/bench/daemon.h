@@ -27,8 +27,8 @@ class Daemon {
 // One connection, kept open.
 class Client {
  public:
-  // What becomes of an answer's body: it is copied into a buffer that stays, or the kernel drops it, so that what
-  // is measured is the daemon and not how fast two processes on one machine share its memory.
+  // What becomes of an answer's body: it is copied into a buffer that stays, or the kernel drops it, so that
+  // what is measured is the daemon and not how fast two processes on one machine share its memory.
   enum class Body { kept, dropped };
   explicit Client(int port, Body body = Body::kept);
   ~Client();

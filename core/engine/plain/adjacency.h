@@ -1,6 +1,6 @@
 #pragma once
-// What touches what in a mesh of faces of any sizes, manifold or not; core/mesh/faces.h says what half-edges are.
-// Everything is sorted and nothing else, so that it can be trusted: the witness of core/mesh/topology.h.
+// What touches what in a mesh of faces of any sizes, manifold or not; core/mesh/faces.h says what half-edges
+// are. Everything is sorted and nothing else, so that it can be trusted: the witness of core/mesh/topology.h.
 
 #include <array>
 #include <span>
@@ -15,8 +15,8 @@ namespace subdivd::plain {
 class Adjacency {
  public:
   Adjacency() = default;
-  // The faces' vertices are each < vertex_count, no face repeating one (assumed). Edges are numbered in the order
-  // in which the faces, corner by corner, first run along them. Linear time, no hashing.
+  // The faces' vertices are each < vertex_count, no face repeating one (assumed). Edges are numbered in the
+  // order in which the faces, corner by corner, first run along them. Linear time, no hashing.
   Adjacency(Index vertex_count, Polygons faces, const Pace& pace = {});
   // The same with the edge of every half-edge and every edge's ends as given, the lower-numbered first: two
   // faces over the same points refine to edges that share their ends and are not the same.

@@ -19,8 +19,8 @@ class BaseVertices {
   BaseVertices(const Net& net, const Scheme& scheme, Index width, Smoothing smoothing);
 
   // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner
-  // loops (core/engine/tri_grid/kernels) leave alone; overwrites what they write of unsettled ones. Both arrays in the
-  // closed-form numbering. Not for linear smoothing.
+  // loops (core/engine/tri_grid/kernels) leave alone; overwrites what they write of unsettled ones. Both
+  // arrays in the closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end, const Pace& pace) const;
   // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each
   // neighbour.

@@ -65,8 +65,8 @@ void expect_same(Index vertex_count, const Faces& faces) {
   }
 }
 
-// `count` faces of `size_of(f)` corners each, no face repeating one, over so few vertices that edges have many
-// faces and windings clash.
+// `count` faces of `size_of(f)` corners each, no face repeating one, over so few vertices that edges have
+// many faces and windings clash.
 template <class SizeOf>
 Polygons random_faces(Index vertex_count, Index count, std::uint64_t seed, SizeOf&& size_of) {
   shapes::Random random(seed);
@@ -120,8 +120,8 @@ TEST(Adjacency, of_any_faces_is_what_the_topology_says) {
   }
 }
 
-// A hub, whose edges are found another way: its faces, of four and five corners, meet there alone or along spokes,
-// and a second hub is across every one of them.
+// A hub, whose edges are found another way: its faces, of four and five corners, meet there alone or along
+// spokes, and a second hub is across every one of them.
 TEST(Adjacency, of_faces_around_hubs_is_what_the_topology_says) {
   constexpr Index kSpokes = 100;
   std::vector<Index> begins = {0}, corners;
