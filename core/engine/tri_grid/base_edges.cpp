@@ -99,16 +99,16 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
         frames.add(frame);
         continue;
       }
-      Ring<Real> whole{3,
-                       {at(point), at(point) + 3},
-                       {},
-                       0,
-                       {kInfiniteSharpness, 0, 0, kInfiniteSharpness},
-                       {},
-                       {},
-                       {{0, 1}, {1, 2}, {2, 3}},
-                       {0, 1, 2, 3},
-                       {{0, 4, false}}};
+      Ring<Real> whole{.width = 3,
+                       .center = {at(point), at(point) + 3},
+                       .neighbors = {},
+                       .vertex_sharpness = 0,
+                       .edge_sharpness = {kInfiniteSharpness, 0, 0, kInfiniteSharpness},
+                       .around = {},
+                       .far_child = {},
+                       .wedges = {{0, 1}, {1, 2}, {2, 3}},
+                       .sector_edges = {0, 1, 2, 3},
+                       .sectors = {{.begin = 0, .end = 4, .closed = false}}};
       for (const Real* neighbour : ring)
         whole.neighbors.insert(whole.neighbors.end(), neighbour, neighbour + 3);
       frames.add(LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0]);

@@ -95,17 +95,27 @@ class Evaluation {
   }
 
   TriMasks<Real> masks() const {
-    if (linear_) return {1, 0, Real(0.5), 0, 1, 0, Real(0.5)};
+    if (linear_)
+      return {.vertex_self = 1,
+              .vertex_each = 0,
+              .edge_end = Real(0.5),
+              .edge_opposite = 0,
+              .crease_self = 1,
+              .crease_end = 0,
+              .crease_edge = Real(0.5)};
     const std::array<float, 2> sharp{kInfiniteSharpness, kInfiniteSharpness};
     const VertexMask smooth = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, {}, {}});
     const VertexMask crease = scheme_.vertex_mask({1, net_.crease_method(), 0, 0, sharp, sharp});
     const EdgeMask edge = scheme_.edge_mask({2, 0, {0, 0}});
     const EdgeMask sharp_edge =
         scheme_.edge_mask({2, kInfiniteSharpness, {kInfiniteSharpness, kInfiniteSharpness}});
-    return {static_cast<Real>(smooth.self),   static_cast<Real>(smooth.each),
-            static_cast<Real>(edge.end),      static_cast<Real>(edge.opposite),
-            static_cast<Real>(crease.self),   static_cast<Real>(crease.crease),
-            static_cast<Real>(sharp_edge.end)};
+    return {.vertex_self = static_cast<Real>(smooth.self),
+            .vertex_each = static_cast<Real>(smooth.each),
+            .edge_end = static_cast<Real>(edge.end),
+            .edge_opposite = static_cast<Real>(edge.opposite),
+            .crease_self = static_cast<Real>(crease.self),
+            .crease_end = static_cast<Real>(crease.crease),
+            .crease_edge = static_cast<Real>(sharp_edge.end)};
   }
 
   TriStep<Real> step_from(Index level, const Real* from, Real* to, Real* rows) const {
@@ -115,24 +125,24 @@ class Evaluation {
     const auto pairs = [](std::span<const std::array<Index, 2>> all) {
       return all.empty() ? nullptr : all[0].data();
     };
-    return {topology.corner_vertices().data(),
-            topology.half_edge_edges().data(),
-            pairs(topology.edge_vertices()),
-            pairs(topology.edge_sides()),
-            rules,
-            topology.all_vertex_edges().data(),
-            topology.vertex_edge_offsets().data(),
-            reinterpret_cast<const unsigned char*>(net_.vertex_rules().data()),
-            vertex_masks_.data(),
-            topology.vertex_count(),
-            topology.edge_count(),
-            topology.face_count(),
-            segments(level),
-            width_,
-            from,
-            to,
-            masks(),
-            rows};
+    return {.triangles = topology.corner_vertices().data(),
+            .half_edge_edges = topology.half_edge_edges().data(),
+            .edge_vertices = pairs(topology.edge_vertices()),
+            .edge_sides = pairs(topology.edge_sides()),
+            .edge_rules = rules,
+            .vertex_edges = topology.all_vertex_edges().data(),
+            .vertex_edge_offsets = topology.vertex_edge_offsets().data(),
+            .vertex_rules = reinterpret_cast<const unsigned char*>(net_.vertex_rules().data()),
+            .vertex_masks = vertex_masks_.data(),
+            .vertex_count = topology.vertex_count(),
+            .edge_count = topology.edge_count(),
+            .face_count = topology.face_count(),
+            .n = segments(level),
+            .width = width_,
+            .from = from,
+            .to = to,
+            .masks = masks(),
+            .rows = rows};
   }
 
   // Calls f(kernel index, first component) for the pieces of at most four components.
@@ -267,19 +277,17 @@ class Evaluation {
   };
 
   TriLimit<Real> limit_of(const Context& context, std::vector<Real>& rows) const {
-    TriLimit<Real> limit{step_from(level_, values_at(level_), out_.limits, rows.data()),
-                         0,
-                         0,
-                         limit_masks_.data(),
-                         tangent_masks_.data(),
-                         out_.tangents_u,
-                         out_.tangents_v,
-                         out_.normals,
-                         &Evaluation::robust_frame,
-                         &context};
-    if (linear_) {
-      limit.self = 1;
-    } else {
+    TriLimit<Real> limit{.level = step_from(level_, values_at(level_), out_.limits, rows.data()),
+                         .self = 1,
+                         .each = 0,
+                         .vertex_masks = limit_masks_.data(),
+                         .vertex_tangents = tangent_masks_.data(),
+                         .tangents_u = out_.tangents_u,
+                         .tangents_v = out_.tangents_v,
+                         .normals = out_.normals,
+                         .robust_frame = &Evaluation::robust_frame,
+                         .context = &context};
+    if (!linear_) {
       const VertexMask mask = scheme_.smooth_limit_mask(6);
       limit.self = static_cast<Real>(mask.self);
       limit.each = static_cast<Real>(mask.each);
