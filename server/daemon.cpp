@@ -10,8 +10,8 @@
 #include <iostream>
 #include <string>
 
-#include "server/application.h"
 #include "server/housekeeper.h"
+#include "server/http/application.h"
 #include "server/log.h"
 #include "server/transport/body.h"
 #include "server/transport/transport.h"

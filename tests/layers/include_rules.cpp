@@ -39,7 +39,9 @@ const std::vector<Layer> kLayers = {
                         "core/analysis/", "core/oracle/report.h", "proto/"}, {"nlohmann/", "tiny_gltf.h"}},
   {"server",           {"core/", "proto/", "server/"}, {"spdlog/", "CLI/", "openssl/", "malloc.h", "POSIX"}},
   {"server/tasks",     {"core/", "proto/", "server/tasks/"}, {}},
-  {"server/transport", {"core/base/", "proto/", "server/"}, {"httplib.h", "spdlog/", "openssl/", "POSIX"}},
+  {"server/http",      {"core/", "proto/", "server/config.h", "server/grants.h", "server/log.h", "server/web/", "server/transport/",
+                        "server/tasks/", "server/http/"}, {}},
+  {"server/transport", {"core/base/", "server/transport/"}, {"httplib.h", "POSIX"}},
 };
 
 const std::set<std::string_view> kStandardLibrary = {

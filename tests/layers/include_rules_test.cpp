@@ -31,7 +31,7 @@ class IncludeRules : public ::testing::Test {
           "core/lattice/split.h", "core/limit/limit.h", "core/engine/net.h",
           "core/engine/tri_grid/evaluate.h", "core/refine/plan.h", "core/splines/bspline.h",
           "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
-          "server/config.h", "server/transport/transport.h", "server/status.h"})
+          "server/config.h", "server/transport/transport.h", "server/http/status.h"})
       write(header, "#pragma once");
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -161,8 +161,8 @@ TEST_F(IncludeRules, rejects_json_in_server) {
 }
 
 TEST_F(IncludeRules, rejects_http_in_tasks) {
-  EXPECT_THAT(planted("server/tasks/a.cpp", "#include \"server/status.h\""),
-              one_at("server/tasks/a.cpp", "server/status.h"));
+  EXPECT_THAT(planted("server/tasks/a.cpp", "#include \"server/http/status.h\""),
+              one_at("server/tasks/a.cpp", "server/http/status.h"));
 }
 
 TEST_F(IncludeRules, rejects_httplib_outside_transport) {

@@ -1,5 +1,5 @@
 // The whole service over a real socket, in this process.
-#include "server/application.h"
+#include "server/http/application.h"
 
 #include <gtest/gtest.h>
 

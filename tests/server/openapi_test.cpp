@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "server/application.h"
-#include "server/status.h"
+#include "server/http/application.h"
+#include "server/http/status.h"
 
 namespace subdivd::server::testing {
 namespace {

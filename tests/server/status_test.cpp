@@ -1,4 +1,4 @@
-#include "server/status.h"
+#include "server/http/status.h"
 
 #include <gtest/gtest.h>
 

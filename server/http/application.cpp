@@ -1,4 +1,4 @@
-#include "server/application.h"
+#include "server/http/application.h"
 
 #include <algorithm>
 #include <string>
@@ -8,8 +8,8 @@
 
 #include "proto/openapi.h"
 #include "proto/schemes.h"
+#include "server/http/status.h"
 #include "server/log.h"
-#include "server/status.h"
 #include "server/tasks/refine_task.h"
 #include "server/web/page.h"
 

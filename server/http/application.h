@@ -6,10 +6,10 @@
 
 #include "core/base/thread_pool.h"
 #include "server/config.h"
-#include "server/cors.h"
-#include "server/geometry_handlers.h"
 #include "server/grants.h"
-#include "server/router.h"
+#include "server/http/cors.h"
+#include "server/http/geometry_handlers.h"
+#include "server/http/router.h"
 #include "server/transport/service.h"
 
 namespace subdivd::server {

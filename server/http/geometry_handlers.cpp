@@ -1,4 +1,4 @@
-#include "server/geometry_handlers.h"
+#include "server/http/geometry_handlers.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,9 +9,9 @@
 #include "core/analysis/spectrum.h"
 #include "proto/decode.h"
 #include "proto/schemes.h"
-#include "server/negotiation.h"
-#include "server/router.h"
-#include "server/status.h"
+#include "server/http/negotiation.h"
+#include "server/http/router.h"
+#include "server/http/status.h"
 #include "server/tasks/curve_task.h"
 #include "server/tasks/phases.h"
 #include "server/tasks/refine_task.h"
