@@ -160,7 +160,7 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
   return unexpected("the border rule has no tangent across the border");
 }
 
-template <class S>
+template <SubdivisionScheme S>
 Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 3); !checked) return checked.error();
   const Index n = valence;
@@ -175,7 +175,7 @@ Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget
   return s;
 }
 
-template <class S>
+template <SubdivisionScheme S>
 Result<Spectrum> border_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 2); !checked) return checked.error();
   const Index n = valence, last = n - 1;
@@ -289,13 +289,13 @@ Result<Spectrum> four_point_spectrum(double tension, const Budget& budget) {
 
 namespace {
 
-template <class S>
+template <SubdivisionScheme S>
 SchemeInfo info_of() {
   SchemeInfo info{std::string(S::name), "surface", {}};
   for (const SchemeOption<S>& option : S::options())
     info.parameters.push_back({std::string(option.short_name), "word", 0, 0, 0,
                                std::vector<std::string>(option.words.begin(), option.words.end())});
-  info.parameters.push_back({"valence", "integer", 3, kMaxSpectrumValence, 6, {}});
+  info.parameters.push_back({"valence", "integer", 3, kMaxSpectrumValence, S::regular_valence, {}});
   info.parameters.push_back({"border", "boolean", 0, 1, 0, {}});
   return info;
 }

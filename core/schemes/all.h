@@ -17,6 +17,11 @@
 
 namespace subdivd {
 
+// What a scheme lacks is said here, in a sentence, not by the depths of what would have used it.
+#define SUBDIVD_REQUIRE(S) template struct RequireScheme<S>;
+SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_REQUIRE)
+#undef SUBDIVD_REQUIRE
+
 namespace detail {
 template <class First, class... Rest>
 struct Schemes {
@@ -47,6 +52,15 @@ inline constexpr auto kSchemeNames = [] {
   for_each_scheme(AllSchemes(), [&]<class S>(const S&) { names[k++] = S::name; });
   return names;
 }();
+
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < kSchemeCount; ++k)
+        for (std::size_t j = 0; j < k; ++j)
+          if (kSchemeNames[j] == kSchemeNames[k]) return false;
+      return true;
+    }(),
+    "every scheme of the list needs a name of its own");
 
 // The scheme of that name with the options that it has in `schemes`; nothing when there is none.
 inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSchemes& schemes = {}) {

@@ -21,6 +21,8 @@ enum class LoopWeights { loop, warren };
 struct Loop {
   static constexpr std::string_view name = "loop";
   static constexpr Split split = Split::triangles;
+  static constexpr FaceSizes face_sizes{3, 3};
+  static constexpr Index regular_valence = 6;
 
   LoopWeights weights = LoopWeights::loop;
 
@@ -63,7 +65,5 @@ struct Loop {
   // The tangent along the crease is e_0 - e_m, eigenvalue 1/2.
   RingMask crease_tangent_across(Index m, const Pace& pace = {}) const;
 };
-
-static_assert(SubdivisionScheme<Loop>);
 
 }  // namespace subdivd

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
+#include "core/base/pace.h"
 #include "core/mesh/rings.h"
 #include "core/schemes/mask.h"
 
@@ -13,6 +15,12 @@ namespace subdivd {
 
 // How a face splits: each split has its numbering in core/lattice and an engine in core/engine.
 enum class Split { triangles };  // a triangle into four
+
+// The numbers of vertices that a face of a control mesh may have, both ends included.
+struct FaceSizes {
+  Index least = 3, most = 3;
+  friend constexpr bool operator==(const FaceSizes&, const FaceSizes&) = default;
+};
 
 // A choice that a scheme leaves to the caller.
 template <class S>
@@ -27,19 +35,81 @@ struct SchemeOption {
 
 // A scheme is a small value (its options) with pure functions of rings. Limit and tangent masks belong to a
 // ring without semi-sharpness; limits refine to themselves: applying a limit mask before or after one step
-// gives the same point, and tangent masks are left eigenvectors of the local subdivision matrix.
+// gives the same point, and tangent masks are left eigenvectors of the local subdivision matrix. What follows
+// asks for all that any part of the program uses of a scheme: one that has it compiles everywhere.
+
+// A small value: requests hold one of each scheme, with the options that they set.
 template <class S>
-concept SubdivisionScheme = requires(const S& scheme, EdgeRing e, VertexRing v, Index n) {
+concept HasOptions = std::semiregular<S> && requires {
   { S::name } -> std::convertible_to<std::string_view>;
-  { S::split } -> std::convertible_to<Split>;
   { S::options() } -> std::convertible_to<std::span<const SchemeOption<S>>>;
-  { scheme.beyond_opensubdiv() } -> std::convertible_to<std::string_view>;
+};
+
+// Constants of the type: how its faces split, which faces it takes, and the valence of the vertices that come to
+// lie inside a face or on an edge of two faces (on a border half of that and one more).
+template <class S>
+concept HasSplit = requires {
+  typename std::integral_constant<Split, S::split>;
+  typename std::integral_constant<Index, S::regular_valence>;
+  requires std::same_as<decltype(S::face_sizes), const FaceSizes>;
+  typename std::integral_constant<Index, S::face_sizes.least>;
+};
+
+template <class S>
+concept HasMasks = requires(const S& scheme, EdgeRing e, VertexRing v) {
   { scheme.edge_mask(e) } -> std::same_as<EdgeMask>;
   { scheme.vertex_mask(v) } -> std::same_as<VertexMask>;
-  // Smooth vertex of valence n; a crease; a dart whose crease runs along edge 0 of a ring in cyclic order.
+};
+
+// Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring in
+// cyclic order.
+template <class S>
+concept HasLimitMasks = requires(const S& scheme, Index n, Index a, Index b, Pace pace) {
   { scheme.smooth_limit_mask(n) } -> std::same_as<VertexMask>;
-  { scheme.crease_limit_mask(n, n) } -> std::same_as<VertexMask>;
+  { scheme.crease_limit_mask(a, b) } -> std::same_as<VertexMask>;
   { scheme.dart_limit_mask(n) } -> std::same_as<RingMask>;
+  { scheme.dart_limit_mask(n, pace) } -> std::same_as<RingMask>;
+};
+
+// Of n weights: two tangents at a smooth vertex, u x v outwards on a ring that runs counter-clockwise, and what
+// takes the place of u at a dart, where v is the same. Of m + 1 weights: across a sector of m faces between the
+// crease edges 0 and m; along the crease it is e_0 - e_m.
+template <class S>
+concept HasTangentMasks = requires(const S& scheme, Index n, Index m, Pace pace) {
+  { scheme.smooth_tangent_u(n) } -> std::same_as<RingMask>;
+  { scheme.smooth_tangent_u(n, pace) } -> std::same_as<RingMask>;
+  { scheme.smooth_tangent_v(n) } -> std::same_as<RingMask>;
+  { scheme.smooth_tangent_v(n, pace) } -> std::same_as<RingMask>;
+  { scheme.dart_tangent_u(n) } -> std::same_as<RingMask>;
+  { scheme.dart_tangent_u(n, pace) } -> std::same_as<RingMask>;
+  { scheme.crease_tangent_across(m) } -> std::same_as<RingMask>;
+  { scheme.crease_tangent_across(m, pace) } -> std::same_as<RingMask>;
+};
+
+template <class S>
+concept AnswersForOpenSubdiv = requires(const S& scheme) {
+  { scheme.beyond_opensubdiv() } -> std::convertible_to<std::string_view>;
+};
+
+template <class S>
+concept SubdivisionScheme = HasOptions<S> && HasSplit<S> && HasMasks<S> && HasLimitMasks<S> &&
+    HasTangentMasks<S> && AnswersForOpenSubdiv<S>;
+
+// Says in a sentence what a scheme lacks; all.h asks it of every scheme of the list.
+template <class S>
+struct RequireScheme {
+  static_assert(HasOptions<S>, "a scheme needs a default, copies, a name and options(): see HasOptions");
+  static_assert(HasSplit<S>, "a scheme needs constants split, face_sizes and regular_valence: see HasSplit");
+  static_assert(HasMasks<S>, "a scheme needs edge_mask and vertex_mask: see HasMasks");
+  static_assert(
+      HasLimitMasks<S>,
+      "a scheme needs smooth_, crease_ and dart_limit_mask, the last with a pace too: see HasLimitMasks");
+  static_assert(
+      HasTangentMasks<S>,
+      "a scheme needs smooth_tangent_u and _v, dart_tangent_u and crease_tangent_across, with a pace "
+      "and without: see HasTangentMasks");
+  static_assert(AnswersForOpenSubdiv<S>,
+                "a scheme needs beyond_opensubdiv(): see beyond_opensubdiv() of all.h");
 };
 
 }  // namespace subdivd

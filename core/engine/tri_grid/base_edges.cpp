@@ -64,7 +64,7 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
   const Numbering numbering(net_.topology(), level);
   const Count n = segments(level);
   const VertexMask mask = scheme_.crease_limit_mask(0, 1);
-  const RingMask across = scheme_.crease_tangent_across(3);
+  const RingMask across = scheme_.crease_tangent_across(Scheme::regular_valence / 2);
   const auto along = net_.topology().edge_half_edges(e);
   std::vector<Index> half_edges(along.begin(), along.end());
   if (half_edges.size() == 2 && half_edges[0] > half_edges[1])

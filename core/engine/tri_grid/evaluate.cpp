@@ -43,6 +43,10 @@ FaceRow face_row(Count triangle, Count n, bool whole_faces) {
 
 template <class Scheme, class Real>
 class Evaluation {
+  static_assert(Scheme::split == Split::triangles && Scheme::face_sizes == FaceSizes{3, 3} &&
+                    Scheme::regular_valence == 6,
+                "grids of triangles serve no scheme that takes other faces, or makes others of them");
+
  public:
   Evaluation(const Net& net, const Scheme& scheme, Index level, Buffer<Real> control, Index width,
              Smoothing smoothing, const Evaluated<Real>& out, const Pace& pace)
@@ -288,7 +292,7 @@ class Evaluation {
                          .robust_frame = &Evaluation::robust_frame,
                          .context = &context};
     if (!linear_) {
-      const VertexMask mask = scheme_.smooth_limit_mask(6);
+      const VertexMask mask = scheme_.smooth_limit_mask(Scheme::regular_valence);
       limit.self = static_cast<Real>(mask.self);
       limit.each = static_cast<Real>(mask.each);
     }
