@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/base/pace.h"
 #include "core/oracle/far_cost.h"
@@ -247,6 +248,22 @@ Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& 
 struct FarMesh::State {
   const ControlMesh* mesh;
   FarRefiner refiner;
+  Index deepest;
+  std::optional<Index> refined_to;
+
+  void refine_to(Index level) {
+    if (refined_to == level) return;
+    unrefine();
+    Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(level));
+    // Without it Far leaves the last level's edges out, which limits and every question about vertices need.
+    uniform.fullTopologyInLastLevel = true;
+    refiner->RefineUniform(uniform);
+    refined_to = level;
+  }
+  void unrefine() {
+    if (refined_to) refiner->Unrefine();
+    refined_to.reset();
+  }
 };
 
 FarMesh::FarMesh(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -261,12 +278,12 @@ Result<FarMesh> FarMesh::build(const ControlMesh& mesh, CreaseMethod crease_meth
   Result<FarRefiner> made = make_refiner(mesh, crease_method);
   if (!made) return made.error();
   if (auto stop = budget.poll()) return *stop;
-  return FarMesh(std::make_unique<State>(State{&mesh, std::move(*made)}));
+  return FarMesh(std::make_unique<State>(State{&mesh, std::move(*made), deepest, {}}));
 }
 
 namespace {
 
-// The refiner has been refined to options.level.
+// The refiner has been refined to options.level; beyond it only where no limits are asked for.
 template <class Real>
 Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRefiner& refiner,
                                   const RefineOptions& options, const Pace& pace) {
@@ -296,15 +313,15 @@ Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRe
 template <class Real>
 Result<FarLevel<Real>> FarMesh::refine(const RefineOptions& options, const Budget& budget) {
   if (auto stop = budget.poll()) return *stop;
-  Far::TopologyRefiner& refiner = *state_->refiner;
-  Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(options.level));
-  // Without it Far leaves the last level's edges out, which limits and every question about vertices need.
-  uniform.fullTopologyInLastLevel = true;
+  // Far's limits are those of its last level; all else is the same below it.
+  const bool limits = options.limit || options.tangents || options.normals;
+  const Index last = limits ? options.level : state_->deepest;
   far_has_complained();  // forget what came before
-  refiner.RefineUniform(uniform);
-  auto result = stoppable(
-      budget, [&](const Pace& pace) { return take_level<Real>(*state_->mesh, refiner, options, pace); });
-  refiner.Unrefine();  // its memory is needed for the comparison
+  state_->refine_to(last);
+  auto result = stoppable(budget, [&](const Pace& pace) {
+    return take_level<Real>(*state_->mesh, *state_->refiner, options, pace);
+  });
+  if (options.level == last) state_->unrefine();  // its memory is needed for the comparison
   return result;
 }
 

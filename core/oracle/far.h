@@ -67,7 +67,7 @@ Result<void> check_far_corners(Count corners);
 // too_large when verification takes more than budget.max_bytes.
 Result<void> check_far_bytes(Count bytes, const Budget& budget);
 
-// A control mesh in Far, which is refined to one level after the other: Far looks for the neighbours once.
+// A control mesh in Far, of which one level is taken after the other: Far looks for the neighbours once.
 class FarMesh {
  public:
   // `mesh` must outlive it and have passed check(): Far checks nothing. Fails as check_far_size for level
@@ -78,9 +78,12 @@ class FarMesh {
   FarMesh& operator=(FarMesh&&) noexcept;
   ~FarMesh();
 
-  // To options.level, at most `deepest`, in one go; other levels play no part. options.crease_method must be
-  // the one above. Fails with out_of_range for a number that Real cannot hold, with unsupported for what Far
-  // refuses, or when the budget says stop. Thrown std::bad_allocs pass through.
+  // The level options.level, at most `deepest`; other levels play no part. options.crease_method must be the
+  // one above. Far makes all levels in one go: with limits, tangents or normals, which it gives of its last
+  // level only, up to this one; otherwise up to `deepest`, once for all levels that are asked for one after
+  // the other. It lets them go when its last level has been taken. Fails with out_of_range for a number that
+  // Real cannot hold, with unsupported for what Far refuses, or when the budget says stop. Thrown
+  // std::bad_allocs pass through.
   template <class Real>
   Result<FarLevel<Real>> refine(const RefineOptions& options, const Budget& budget);
 

@@ -104,6 +104,14 @@ TEST(Memory, of_verifying_stays_within_what_is_predicted) {
       RecordProperty(std::string(shape.name) + "_" + std::to_string(level), std::to_string(share));
       EXPECT_LE(share, 1) << shape.name << ", level " << level;
       EXPECT_GE(share, 0.2) << shape.name << ", level " << level << ": too careful";
+      // Without limits Far's levels stay while those below the last are compared.
+      RefineOptions values = options;
+      values.limit = values.tangents = values.normals = false;
+      const std::int64_t ours_alone =
+          peak_of([&] { return refine<double>(shape.mesh, values, Budget{}).ok(); });
+      const std::int64_t together =
+          peak_of([&] { return verify<double>(shape.mesh, values, Budget{}).ok(); });
+      EXPECT_LE(together - ours_alone, std::int64_t(predicted)) << shape.name << ", level " << level;
     }
   }
 }
