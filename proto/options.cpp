@@ -337,7 +337,7 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
                  .allowed = limits.max_level};
   if (!options.verify) return {};
   for (const ControlMesh& mesh : request.meshes) {
-    const auto scheme = find_scheme(mesh.subdivision_scheme, options.schemes);
+    const auto scheme = scheme_of_mesh(mesh.subdivision_scheme, options.schemes);
     const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
     if (!reason.empty())
       return Error{ErrorCode::unsupported, "verify compares with OpenSubdiv, which " + std::string(reason),

@@ -30,10 +30,10 @@ inline constexpr Index kMaxElementSize = 4096;
 
 struct ControlMesh {
   std::string name;
-  std::string subdivision_scheme = "loop";  // a name from core/schemes/all.h
-  std::vector<double> points;               // x y z per point
-  std::vector<Index> face_vertex_counts;    // empty: all faces are triangles
-  std::vector<Index> face_vertex_indices;   // face after face; a face's vertices counter-clockwise
+  std::string subdivision_scheme;          // a name from core/schemes/all.h; empty: the first of its list
+  std::vector<double> points;              // x y z per point
+  std::vector<Index> face_vertex_counts;   // empty: all faces are triangles
+  std::vector<Index> face_vertex_indices;  // face after face; a face's vertices counter-clockwise
   BoundaryInterpolation interpolate_boundary = BoundaryInterpolation::edge_and_corner;
   FaceVaryingInterpolation face_varying_linear_interpolation = FaceVaryingInterpolation::corners_plus1;
 

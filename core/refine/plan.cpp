@@ -68,7 +68,7 @@ Count plan_bytes(const Cage& cage, const PlanOptions& options) {
 }
 
 Result<Plan> Plan::build(const Cage& cage, const PlanOptions& options, const Budget& budget) {
-  const std::optional<AnyScheme> scheme = find_scheme(cage.subdivision_scheme, options.schemes);
+  const std::optional<AnyScheme> scheme = scheme_of_mesh(cage.subdivision_scheme, options.schemes);
   if (!scheme) return no_such_scheme(cage.subdivision_scheme);
   if (auto allowed = check_level(options.max_level); !allowed) return std::move(allowed).error();
   return stoppable(budget, [&](const Pace& pace) -> Result<Plan> {

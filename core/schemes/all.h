@@ -71,6 +71,11 @@ inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSche
   return found;
 }
 
+// The scheme that a mesh names; the first of the list when it names none.
+inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, const AllSchemes& schemes = {}) {
+  return find_scheme(name.empty() ? kSchemeNames.front() : name, schemes);
+}
+
 // Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and ends
 // with what would be right. Empty: it can.
 inline std::string_view beyond_opensubdiv(const AnyScheme& scheme) {

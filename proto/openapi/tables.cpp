@@ -31,6 +31,7 @@ void add_words(Json& named) {
   named["words.basis"] = list(json::basis_words());
   named["words.spacing"] = list(json::spacing_words());
   named["words.schemes"] = list(kSchemeNames);
+  named["standard.scheme"] = kSchemeNames.front();
   for (const OptionSpec& spec : option_table())
     if (spec.kind == OptionKind::word) named["words." + std::string(spec.name)] = list(spec.words);
 }

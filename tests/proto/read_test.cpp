@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/schemes/all.h"
 #include "tests/proto/support.h"
 
 namespace subdivd::proto::test {
@@ -96,7 +97,9 @@ TEST(read, whole_numbers_may_be_written_as_reals) {
 
 TEST(read, defaults_are_openusds) {
   const ControlMesh mesh = first_mesh(kTriangle);
-  EXPECT_EQ(mesh.subdivision_scheme, "loop");
+  const auto scheme = scheme_of_mesh(mesh.subdivision_scheme);
+  ASSERT_TRUE(scheme.has_value());
+  EXPECT_TRUE(std::holds_alternative<Loop>(*scheme));
   EXPECT_EQ(mesh.interpolate_boundary, BoundaryInterpolation::edge_and_corner);
   EXPECT_EQ(mesh.face_varying_linear_interpolation, FaceVaryingInterpolation::corners_plus1);
 }

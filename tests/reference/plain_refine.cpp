@@ -328,7 +328,7 @@ Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& o
       [&](const auto& scheme) {
         return Job<std::remove_cvref_t<decltype(scheme)>, Real>(scheme, mesh, options, Budget{}).run();
       },
-      *find_scheme(mesh.subdivision_scheme, options.schemes));
+      *scheme_of_mesh(mesh.subdivision_scheme, options.schemes));
 }
 
 template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const RefineOptions&);

@@ -118,6 +118,17 @@ TEST(AllSchemes, are_found_by_name_and_no_other_is) {
   EXPECT_FALSE(find_scheme("").has_value());
 }
 
+TEST(AllSchemes, a_mesh_that_names_none_has_the_first) {
+  AllSchemes schemes;
+  std::get<Loop>(schemes).weights = LoopWeights::warren;
+  const auto standard = scheme_of_mesh(ControlMesh().subdivision_scheme, schemes);
+  ASSERT_TRUE(standard.has_value());
+  EXPECT_EQ(standard->index(), 0u);
+  EXPECT_EQ(std::get<Loop>(*standard).weights, LoopWeights::warren);
+  EXPECT_TRUE(scheme_of_mesh(kSchemeNames.back()).has_value());
+  EXPECT_FALSE(scheme_of_mesh("catmullClark").has_value());
+}
+
 TEST(AllSchemes, options_have_names_of_their_own_and_take_their_words) {
   std::set<std::string_view> names;
   for_each_scheme(AllSchemes(), [&]<class S>(const S&) {
