@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 #include "core/base/budget.h"
@@ -55,6 +56,24 @@ TEST(PlainRows, apply_to_values_of_any_width) {
   rows.end_row();  // an empty row is zero
   const std::vector<double> values{1, 2, 5, 6};
   EXPECT_EQ(apply<double>(rows, values, 2), (std::vector<double>{2, 3, 0, 0}));
+}
+
+// The row of a hub may have millions of columns.
+TEST(PlainRows, application_stops_within_a_row) {
+  SparseRows rows;
+  for (int k = 0; k < 40000; ++k) rows.add(0, 1);
+  rows.end_row();
+  std::atomic<bool> gone = false;
+  Budget budget;
+  budget.cancelled = &gone;
+  const std::vector<double> values{1};
+  const auto applied = stoppable(budget, [&](const Pace& pace) {
+    pace.spend(1);  // the first call polls
+    gone = true;
+    return apply<double>(rows, values, 1, pace);
+  });
+  ASSERT_FALSE(applied.ok());
+  EXPECT_EQ(applied.error().code, ErrorCode::cancelled);
 }
 
 TEST(PlainLevel, keeps_every_edge_that_the_step_before_made) {

@@ -60,6 +60,16 @@ TEST(Provenance, is_of_the_lowest_face_that_has_the_vertex) {
   }
 }
 
+// The array may come unset.
+TEST(Provenance, of_a_point_without_faces_is_none_whatever_stood_there) {
+  ControlMesh mesh = shapes::tetrahedron();
+  mesh.points.insert(mesh.points.end(), {7, 7, 7});
+  const Connectivity<Triangles> connectivity = connectivity_of(mesh);
+  std::vector<Provenance> places(Numbering(connectivity, 1).vertex_count(), Provenance{2, 1, 1});
+  write_provenance(connectivity, 1, places, Pace());
+  EXPECT_EQ(places[4].face, kNoIndex);
+}
+
 TEST(TriangleFaces, leave_out_holes) {
   const std::vector<unsigned char> holes{0, 1, 0};
   std::vector<Index> faces(2 * triangles_per_face(1), kNoIndex);
