@@ -14,6 +14,7 @@
 #include "core/refine/plan.h"
 #include "core/schemes/all.h"
 #include "tests/reference/plain_refine.h"
+#include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {
@@ -178,6 +179,36 @@ void expect_same_bytes(const RefinedMesh<Real>& a, const RefinedMesh<Real>& b, c
     EXPECT_EQ(a.primvars[p].values, b.primvars[p].values) << what;
     EXPECT_EQ(a.primvars[p].limit_values, b.primvars[p].limit_values) << what;
   }
+}
+
+// Which end of an edge is the lower differs between the two, and Chaikin's rule tells its halves apart.
+TEST(engine, a_channel_numbered_backwards_equals_the_points) {
+  ControlMesh mesh = shapes::icosahedron();
+  const std::vector<Index>& corners = mesh.face_vertex_indices;
+  shapes::crease(mesh, {corners[0], corners[1]}, 1.4f);
+  shapes::crease(mesh, {corners[1], corners[2]}, 3.7f);
+  const auto last = static_cast<Index>(mesh.point_count()) - 1;
+  Primvar back{.name = "back",
+               .interpolation = Interpolation::face_varying,
+               .element_size = 3,
+               .values = {},
+               .indices = {}};
+  for (Index v = 0; v <= last; ++v)
+    for (Index c = 0; c < 3; ++c) back.values.push_back(mesh.points[3 * (last - v) + c]);
+  for (const Index v : corners) back.indices.push_back(last - v);
+  mesh.primvars = {back};
+  const RefineOptions options = everything(4, CreaseMethod::chaikin);
+  expect_as_plain<double>(mesh, options, "backwards");
+  const auto refined = refine<double>(mesh, options, {});
+  ASSERT_TRUE(refined.ok());
+  const auto& values = refined->primvars[0];
+  for (std::size_t k = 0; k < refined->triangles.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) {
+      ASSERT_NEAR(values.values[3 * values.indices[k] + c], refined->points[3 * refined->triangles[k] + c],
+                  1e-14);
+      ASSERT_NEAR(values.limit_values[3 * values.indices[k] + c],
+                  refined->limit_points[3 * refined->triangles[k] + c], 1e-14);
+    }
 }
 
 TEST(engine, gives_the_same_bytes_for_any_number_of_threads) {
