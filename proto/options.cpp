@@ -154,7 +154,7 @@ const std::vector<std::string_view>& names() {
 Error refusal(ErrorCode code, const OptionSpec& spec, std::string_view got, const Path& where) {
   std::string message =
       std::string(spec.name) + " is " + std::string(got) + "; it must be " + valid_values(spec);
-  return {code, std::move(message), where, 0, 0};
+  return {.code = code, .message = std::move(message), .where = where};
 }
 
 Result<void> set_number(Options& options, const OptionSpec& spec, double number, std::string_view got,

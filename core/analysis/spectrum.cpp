@@ -293,10 +293,15 @@ template <SubdivisionScheme S>
 SchemeInfo info_of() {
   SchemeInfo info{std::string(S::name), "surface", {}};
   for (const SchemeOption<S>& option : S::options())
-    info.parameters.push_back({std::string(option.short_name), "word", 0, 0, 0,
-                               std::vector<std::string>(option.words.begin(), option.words.end())});
-  info.parameters.push_back({"valence", "integer", 3, kMaxSpectrumValence, S::regular_valence, {}});
-  info.parameters.push_back({"border", "boolean", 0, 1, 0, {}});
+    info.parameters.push_back({.name = std::string(option.short_name),
+                               .type = "word",
+                               .words = std::vector<std::string>(option.words.begin(), option.words.end())});
+  info.parameters.push_back({.name = "valence",
+                             .type = "integer",
+                             .least = 3,
+                             .most = kMaxSpectrumValence,
+                             .standard = S::regular_valence});
+  info.parameters.push_back({.name = "border", .type = "boolean", .most = 1});
   return info;
 }
 
@@ -306,8 +311,12 @@ std::vector<SchemeInfo> list_of_schemes() {
   std::vector<SchemeInfo> list;
   for_each_scheme(AllSchemes(), [&]<class S>(const S&) { list.push_back(info_of<S>()); });
   list.push_back(
-      {std::string(kLaneRiesenfeld), "curve", {{"degree", "integer", 1, kMaxSpectrumDegree, 3, {}}}});
-  list.push_back({std::string(kFourPoint), "curve", {{"tension", "number", 0, 1.0 / 16, 1.0 / 16, {}}}});
+      {std::string(kLaneRiesenfeld),
+       "curve",
+       {{.name = "degree", .type = "integer", .least = 1, .most = kMaxSpectrumDegree, .standard = 3}}});
+  list.push_back({std::string(kFourPoint),
+                  "curve",
+                  {{.name = "tension", .type = "number", .most = 1.0 / 16, .standard = 1.0 / 16}}});
   return list;
 }
 

@@ -72,10 +72,10 @@ Result<Spectrum> four_point_spectrum(double tension, const Budget& budget);
 
 struct SchemeParameter {
   std::string name;
-  std::string type;                // "integer", "number", "boolean" or "word"
-  double least = 0, most = 0;      // of numbers
-  double standard = 0;             // of numbers and booleans
-  std::vector<std::string> words;  // of words, the first being the standard
+  std::string type;                     // "integer", "number", "boolean" or "word"
+  double least = 0, most = 0;           // of numbers
+  double standard = 0;                  // of numbers and booleans
+  std::vector<std::string> words = {};  // of words, the first being the standard
 };
 
 struct SchemeInfo {

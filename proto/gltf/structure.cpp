@@ -124,7 +124,7 @@ Result<void> load_slices(const Json& document, const char* array, const std::vec
     (model.*list)
         .insert((model.*list).end(), std::make_move_iterator((read.*list).begin()),
                 std::make_move_iterator((read.*list).end()));
-    if (auto stop = work.spend(BudgetPoller::kInterval)) return *std::move(stop);
+    if (auto stop = work.spend(Pace::kBlock)) return *std::move(stop);
   }
   if ((model.*list).size() == numbers.size()) return {};
   return Error{ErrorCode::internal, "the glTF reader left something out"};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/budget.h"
+#include "core/base/pace.h"
 
 namespace subdivd::proto::gltf {
 
@@ -15,15 +16,22 @@ class Held;
 // next, and the budget is asked only when more is held at one time than ever before.
 class Work {
  public:
-  explicit Work(const Budget& budget) : poller_(budget), budget_(budget) {}
+  explicit Work(const Budget& budget) : pace_(budget), budget_(budget) {}
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
   const Budget& budget() const { return budget_; }
   // After (or before) `steps` of some 10 ns. Empty: go on. Otherwise the reason to stop.
-  std::optional<Error> spend(Count steps) { return poller_.spend(steps); }
+  std::optional<Error> spend(Count steps) {
+    try {
+      pace_.spend(steps);
+      return std::nullopt;
+    } catch (Stopped& stopped) {
+      return std::move(stopped.error);
+    }
+  }
   // Copying and comparing go through memory faster: per byte.
-  std::optional<Error> spend_bytes(Count bytes) { return poller_.spend(bytes / 32 + 1); }
+  std::optional<Error> spend_bytes(Count bytes) { return spend(bytes / 32 + 1); }
 
   // `bytes` that will be allocated and live as long as what is read or written.
   Result<void> keep(Count bytes) {
@@ -39,7 +47,7 @@ class Work {
   void drop(Count bytes) { live_ -= std::min(bytes, live_); }
 
  private:
-  BudgetPoller poller_;
+  Pace pace_;
   const Budget& budget_;
   Count live_ = 0, taken_ = 0;
 };
