@@ -3,9 +3,6 @@
 #include <cmath>
 
 #include "core/base/pace.h"
-#include "core/curves/corner_cutting.h"
-#include "core/curves/four_point.h"
-#include "core/curves/lane_riesenfeld.h"
 #include "core/curves/piecewise.h"
 
 namespace subdivd {
@@ -23,49 +20,25 @@ std::string name_of(CurveWrap wrap) {
   return "pinned";
 }
 
-// "cubic curve", "curve of degree 5", …
-std::string kind_of(const ControlCurves& curves) {
-  switch (curves.basis) {
-    case CurveBasis::four_point:
-      return "four-point curve";
-    case CurveBasis::corner_cutting:
-      return "corner-cutting curve";
-    default:
-      break;
-  }
-  return curves.degree == 3 ? "cubic curve" : "curve of degree " + std::to_string(curves.degree);
-}
-
 Error too_few(const ControlCurves& curves, Count points, Path where) {
   return Error{ErrorCode::too_few_points,
-               "a " + name_of(curves.wrap) + " " + kind_of(curves) + " needs at least " +
-                   std::to_string(least_points(curves)) + " points; this one has " + std::to_string(points),
+               "a " + name_of(curves.wrap) + " " +
+                   visit_scheme(curves.basis, [](const auto& kind) { return kind.description(); }) +
+                   " needs at least " + std::to_string(least_points(curves)) + " points; this one has " +
+                   std::to_string(points),
                std::move(where)};
 }
 
-Error bad_parameter(const char* name, double value, const char* range) {
-  return Error{std::isfinite(value) ? ErrorCode::out_of_range : ErrorCode::not_finite,
-               "the " + std::string(name) + " is " + std::to_string(value) + "; it must be " + range,
-               {std::string(name)}};
-}
-
-Result<void> check_basis(const ControlCurves& curves) {
-  switch (curves.basis) {
-    case CurveBasis::bspline:
-      if (curves.degree >= 1 && curves.degree <= kMaxCurveDegree) return {};
-      return Error{ErrorCode::out_of_range,
-                   "the degree is " + std::to_string(curves.degree) + "; it must be 1 to " +
-                       std::to_string(kMaxCurveDegree),
-                   {"degree"}};
-    case CurveBasis::four_point:
-      if (is_four_point_tension(curves.tension)) return {};
-      return bad_parameter("tension", curves.tension, "at least 0 and below 0.192729");
-    case CurveBasis::corner_cutting:
-      if (is_cutting_ratio(curves.ratio)) return {};
-      return bad_parameter("ratio", curves.ratio, "above 0 and below 0.5");
-    default:
-      return {};
-  }
+// Of the kind's parameters; knots are checked with the points.
+Result<void> check_parameters(const CurveBasis& basis) {
+  return std::visit(
+      []<class Kind>(const Kind& kind) -> Result<void> {
+        if constexpr (SubdividedKind<Kind>)
+          return kind.check();
+        else
+          return {};
+      },
+      basis);
 }
 
 Result<void> check_points(const ControlCurves& curves, const Budget& budget) {
@@ -101,15 +74,7 @@ Result<void> check_points(const ControlCurves& curves, const Budget& budget) {
 }  // namespace
 
 CurveSplit split_of(const ControlCurves& curves) {
-  switch (curves.basis) {
-    case CurveBasis::four_point:
-      return four_point_split();
-    case CurveBasis::corner_cutting:
-      return corner_cutting_split();
-    default:
-      break;
-  }
-  return lane_riesenfeld_split(curves.degree);
+  return visit_scheme(curves.basis, [](const auto& kind) { return kind.split(); });
 }
 
 Index least_points(const ControlCurves& curves) {
@@ -126,7 +91,7 @@ Index least_points(const ControlCurves& curves) {
 }
 
 Result<void> ControlCurves::check(const Budget& budget) const {
-  if (auto checked = check_basis(*this); !checked) return checked;
+  if (auto checked = check_parameters(basis); !checked) return checked;
   if (auto checked = check_points(*this, budget); !checked) return checked;
   if (!is_subdivided(basis)) return check_piecewise(*this, budget);
   const Count given = point_count();

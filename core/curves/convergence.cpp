@@ -222,7 +222,7 @@ Domain domain_of(const ControlCurves& curves, Count points, Index level) {
   const Place count = static_cast<Place>(refined_point_count(curves, points, level));
   if (curves.wrap == CurveWrap::periodic) return {0, count, true};
   if (curves.wrap == CurveWrap::pinned) return {0, dual ? count - 2 : count, dual};
-  const Place outer = static_cast<Place>(curves.degree / 2);
+  const Place outer = static_cast<Place>(split_of(curves).lost / 2);
   return {outer, count - outer, dual};
 }
 
@@ -266,7 +266,7 @@ class LevelMeter {
 };
 
 Result<void> check_request(const ControlCurves& curves, Index curve, Index levels, const Budget& budget) {
-  if (curves.basis != CurveBasis::bspline)
+  if (!std::holds_alternative<UniformBSpline>(curves.basis))
     return Error{ErrorCode::unsupported, "convergence is measured for the basis bspline only", {"basis"}};
   if (curve >= curves.curve_count())
     return Error{
@@ -304,7 +304,7 @@ Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve
                                         const Budget& budget) {
   if (auto checked = check_request(curves, curve, levels, budget); !checked) return checked.error();
   Convergence result;
-  const int degree = static_cast<int>(curves.degree);
+  const int degree = static_cast<int>(std::get<UniformBSpline>(curves.basis).degree);
   if (degree == 1) {
     result.distances.assign(levels + Count{1}, 0);
     result.ratios.assign(levels, 0);
@@ -314,7 +314,7 @@ Result<Convergence> measure_convergence(const ControlCurves& curves, Index curve
     const Count points = curves.points_of_curve(curve);
     const std::span<const double> all(curves.points);
     Differences differences = differences_of(curves, all.subspan(first * curves.width, points * curves.width),
-                                             curves.degree % 2 == 0, pace);
+                                             degree % 2 == 0, pace);
     normalize(differences, pace);
     LevelMeter meter(degree, pace);
     for (Index level = 0; level <= levels; ++level) {

@@ -16,7 +16,7 @@
 //   [GregoryQu96]
 
 #include "core/base/index.h"
-#include "core/curves/control_curve.h"
+#include "core/curves/kinds.h"
 
 namespace subdivd {
 
@@ -26,13 +26,9 @@ bool is_cutting_ratio(double r);
 // Dual: child 2i lies on the edge before point i, child 2i+1 on the edge behind. A pinned curve starts at the
 // middle e = c_0 of an edge from 2e - c_1 to c_1, so that its first edge is half an edge and is cut once, at
 // c_1 + 2r (e - c_1).
-CurveSplit corner_cutting_split();
+//   CornerCutting::split()
 
-LimitMasks corner_cutting_limits(double r);
-
-// As lane_riesenfeld_children, and of degree 2 to the bit for r = 1/4.
-template <class Real>
-void corner_cutting_children(double r, Index width, const Real* self, Count scalars, Real* first,
-                             Real* second);
+// Children are those of degree 2 to the bit for r = 1/4.
+//   CornerCutting::children()
 
 }  // namespace subdivd

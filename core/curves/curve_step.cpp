@@ -3,42 +3,46 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/curves/corner_cutting.h"
-#include "core/curves/four_point.h"
-#include "core/curves/lane_riesenfeld.h"
-
 namespace subdivd {
 namespace {
 
 constexpr Count kChunkScalars = 384;
 
+// The loop for a scheme, null where there is none, and the parameter that it takes.
 template <class Real>
-kernels::SplitPoints<Real> kernel_of(const ControlCurves& rule) {
-  if (rule.width > kernels::kKernelWidth) return nullptr;
-  const kernels::CurveKernels<Real>& all = kernels::curve_kernels<Real>();
-  switch (rule.basis) {
-    case CurveBasis::four_point:
-      return all.four_point[rule.width - 1];
-    case CurveBasis::corner_cutting:
-      return all.corner_cutting[rule.width - 1];
-    default:
-      break;
-  }
-  if (rule.degree > kernels::kKernelDegree) return nullptr;
-  return all.lane_riesenfeld[rule.degree - 1][rule.width - 1];
+struct Kernel {
+  kernels::SplitPoints<Real> split = nullptr;
+  double parameter = 0;
+};
+
+template <class Real>
+Kernel<Real> kernel_of(const UniformBSpline& kind, const kernels::CurveKernels<Real>& all, Index width) {
+  if (kind.degree > kernels::kKernelDegree) return {};
+  return {all.lane_riesenfeld[kind.degree - 1][width - 1], 0};
 }
 
 template <class Real>
-void children(const ControlCurves& rule, const Real* self, Count scalars, Real* first, Real* second) {
-  switch (rule.basis) {
-    case CurveBasis::four_point:
-      return four_point_children(rule.tension, rule.width, self, scalars, first, second);
-    case CurveBasis::corner_cutting:
-      return corner_cutting_children(rule.ratio, rule.width, self, scalars, first, second);
-    default:
-      break;
-  }
-  lane_riesenfeld_children(rule.degree, rule.width, self, scalars, first, second);
+Kernel<Real> kernel_of(const FourPoint& kind, const kernels::CurveKernels<Real>& all, Index width) {
+  return {all.four_point[width - 1], kind.tension};
+}
+
+template <class Real>
+Kernel<Real> kernel_of(const CornerCutting& kind, const kernels::CurveKernels<Real>& all, Index width) {
+  return {all.corner_cutting[width - 1], kind.ratio};
+}
+
+template <class Real>
+Kernel<Real> kernel_of(const ControlCurves& rule) {
+  if (rule.width > kernels::kKernelWidth) return {};
+  return visit_scheme(rule.basis, [&](const auto& kind) {
+    return kernel_of<Real>(kind, kernels::curve_kernels<Real>(), rule.width);
+  });
+}
+
+template <class Real>
+void make_children(const ControlCurves& rule, const Real* self, Count scalars, Real* first, Real* second) {
+  visit_scheme(rule.basis,
+               [&](const auto& kind) { kind.children(rule.width, self, scalars, first, second); });
 }
 
 // first and second child in turn, of `points` points. The width as a constant makes the copies plain moves.
@@ -73,18 +77,20 @@ void interleave(Index width, Count points, const Real* first, const Real* second
 template <class Real>
 CurveStep<Real>::CurveStep(const Curve<Real>& curve)
     : curve_(curve),
-      kernel_(kernel_of<Real>(*curve.rule)),
-      parameter_(curve.rule->basis == CurveBasis::four_point ? curve.rule->tension : curve.rule->ratio),
       chunk_(std::max<Count>(1, kChunkScalars / curve.width)),
       first_(chunk_ * curve.width),
-      second_(chunk_ * curve.width) {}
+      second_(chunk_ * curve.width) {
+  const Kernel<Real> kernel = kernel_of<Real>(*curve.rule);
+  kernel_ = kernel.split;
+  parameter_ = kernel.parameter;
+}
 
 template <class Real>
 void CurveStep<Real>::split_in_chunks(const Real* self, Count points, Real* to) {
   const Index width = curve_.width;
   while (points > 0) {
     const Count now = std::min(chunk_, points);
-    children(*curve_.rule, self, now * width, first_.data(), second_.data());
+    make_children(*curve_.rule, self, now * width, first_.data(), second_.data());
     interleave(width, now, first_.data(), second_.data(), to);
     points -= now, self += now * width, to += 2 * now * width;
   }
@@ -105,7 +111,7 @@ void CurveStep<Real>::split(const Window<Real>& from, Place children_there, Plac
   const Place begin = wanted.begin + curve_.missing(), end = wanted.end + curve_.missing();
   const Place first_whole = (begin + 1) >> 1, last_whole = end >> 1;
   const auto only_child = [&](Place child) {
-    children(*curve_.rule, from.at(child >> 1, width), width, first_.data(), second_.data());
+    make_children(*curve_.rule, from.at(child >> 1, width), width, first_.data(), second_.data());
     const std::vector<Real>& made = child % 2 == 0 ? first_ : second_;
     std::copy_n(made.data(), width, to + static_cast<Count>(child - begin) * width);
   };

@@ -23,8 +23,8 @@ class CurveStep {
   void split_in_chunks(const Real* self, Count points, Real* to);
 
   const Curve<Real>& curve_;
-  kernels::SplitPoints<Real> kernel_;  // null where there is none: wide points, high degrees
-  double parameter_;
+  kernels::SplitPoints<Real> kernel_ = nullptr;  // there is none: wide points, high degrees
+  double parameter_ = 0;
   Count chunk_;                       // points between two interleavings
   std::vector<Real> first_, second_;  // scratch: children of a chunk, apart
 };

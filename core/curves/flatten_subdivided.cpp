@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/all_finite.h"
+#include "core/base/overloaded.h"
 #include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/corner_cutting.h"
@@ -83,7 +84,7 @@ struct FourPointParts {
   // Children -2 to 4 of the points -2 to 3.
   std::vector<double> children(const std::vector<double>& points) const {
     std::vector<double> first(3 * Count{width}), second(first.size()), all;
-    four_point_children(w, width, points.data() + width, first.size(), first.data(), second.data());
+    FourPoint{w}.children(width, points.data() + width, first.size(), first.data(), second.data());
     for (Index i = 0; i < 3; ++i)
       for (const std::vector<double>* child : {&first, &second})
         all.insert(all.end(), child->begin() + i * width, child->begin() + (i + 1) * width);
@@ -127,7 +128,7 @@ struct CornerCuttingParts {
     padded.insert(padded.end(), points.begin(), points.end());
     padded.insert(padded.end(), points.end() - width, points.end());
     std::vector<double> first(3 * Count{width}), second(first.size()), all;
-    corner_cutting_children(r, width, padded.data() + width, first.size(), first.data(), second.data());
+    CornerCutting{r}.children(width, padded.data() + width, first.size(), first.data(), second.data());
     for (Index i = 0; i < 2; ++i) {
       all.insert(all.end(), second.begin() + i * width, second.begin() + (i + 1) * width);
       all.insert(all.end(), first.begin() + (i + 1) * width, first.begin() + (i + 2) * width);
@@ -274,9 +275,15 @@ Result<Polyline> flatten_by(const Parts& parts, const SubdividedCurve& curve, co
 Result<Polyline> flatten(const SubdividedCurve& curve, const FlattenOptions& options, const Budget& budget) {
   if (auto checked = check_tolerance(options); !checked) return checked.error();
   return stoppable(budget, [&](const Pace& pace) {
-    if (curve.rule->basis == CurveBasis::four_point)
-      return flatten_by(FourPointParts{curve.rule->tension, curve.dimension()}, curve, options, budget, pace);
-    return flatten_by(CornerCuttingParts{curve.rule->ratio, curve.dimension()}, curve, options, budget, pace);
+    const Index width = curve.dimension();
+    return std::visit(
+        Overloaded{[&](const FourPoint& kind) {
+                     return flatten_by(FourPointParts{kind.tension, width}, curve, options, budget, pace);
+                   },
+                   [&](const CornerCutting& kind) {
+                     return flatten_by(CornerCuttingParts{kind.ratio, width}, curve, options, budget, pace);
+                   }},
+        curve.scheme);
   });
 }
 

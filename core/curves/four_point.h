@@ -7,7 +7,7 @@
 // 0 < w < w*, the root 0.192729... of 32 w^3 + 4 w - 1.   [HechlerMoessnerReif09]
 
 #include "core/base/index.h"
-#include "core/curves/control_curve.h"
+#include "core/curves/kinds.h"
 
 namespace subdivd {
 
@@ -17,16 +17,15 @@ bool is_four_point_tension(double w);
 // Primal. A pinned curve is continued by c_{-k} = 2 c_0 - c_k. A nonperiodic one keeps the points next to
 // which something new stands: N - 2 old and N - 3 new ones, 2N - 5. Five points would stay five for ever
 // (the limit between two points depends on six), so it needs six.
-CurveSplit four_point_split();
+//   FourPoint::split()
 
 // Points are their own limits. With x = c_1 - c_{-1} and y = c_2 - c_{-2}, a step makes x' = (1/2 + 2w) x - w
 // y and y' = x, whose left eigenvector for 1/2 is (1, -2w); scaled so that c_i = i gives 1:
 //   tangent = (x - 2w y) / (2 (1 - 4w))
-LimitMasks four_point_limits(double w);
+//   FourPoint::limit_masks()
 
-// As lane_riesenfeld_children. Computed as the edge's middle plus w times two differences, weights first:
-// equal points give that point to the bit, and nothing outgrows a number unless the result does.
-template <class Real>
-void four_point_children(double w, Index width, const Real* self, Count scalars, Real* first, Real* second);
+// Children are computed as the edge's middle plus w times two differences, weights first: equal points give
+// that point to the bit, and nothing outgrows a number unless the result does.
+//   FourPoint::children()
 
 }  // namespace subdivd

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace subdivd {
@@ -81,8 +82,22 @@ class Cardinal {
 
 }  // namespace
 
-CurveSplit lane_riesenfeld_split(Index degree) {
-  return {degree % 2 == 0, static_cast<Index>(reach_of(static_cast<int>(degree))), degree};
+Result<void> UniformBSpline::check() const {
+  if (degree >= 1 && degree <= kMaxCurveDegree) return {};
+  return Error{
+      ErrorCode::out_of_range,
+      "the degree is " + std::to_string(degree) + "; it must be 1 to " + std::to_string(kMaxCurveDegree),
+      {"degree"}};
+}
+
+std::string UniformBSpline::description() const {
+  return degree == 3 ? "cubic curve" : "curve of degree " + std::to_string(degree);
+}
+
+CurveSplit UniformBSpline::split() const {
+  return {.dual = degree % 2 == 0,
+          .reach = static_cast<Index>(reach_of(static_cast<int>(degree))),
+          .lost = degree};
 }
 
 std::vector<double> lane_riesenfeld_mask(Index degree) {
@@ -92,7 +107,7 @@ std::vector<double> lane_riesenfeld_mask(Index degree) {
   return mask;
 }
 
-LimitMasks lane_riesenfeld_limits(Index degree) {
+LimitMasks UniformBSpline::limit_masks() const {
   const Cardinal cardinal(degree);
   LimitMasks masks;
   for (int k = 0; cardinal.value(2 * k) != 0; ++k) masks.values.push_back(cardinal.value(2 * k));
@@ -106,15 +121,14 @@ LimitMasks lane_riesenfeld_limits(Index degree) {
 }
 
 template <class Real>
-void lane_riesenfeld_children(Index degree, Index width, const Real* self, Count scalars, Real* first,
-                              Real* second) {
+void UniformBSpline::children(Index width, const Real* self, Count scalars, Real* first, Real* second) const {
   static constexpr auto kChildren =
       children_by_degree<Real>(std::make_integer_sequence<int, int{kMaxCurveDegree}>{});
   assert(degree >= 1 && degree <= kMaxCurveDegree);
   kChildren[degree - 1](width, self, scalars, first, second);
 }
 
-template void lane_riesenfeld_children<float>(Index, Index, const float*, Count, float*, float*);
-template void lane_riesenfeld_children<double>(Index, Index, const double*, Count, double*, double*);
+template void UniformBSpline::children<float>(Index, const float*, Count, float*, float*) const;
+template void UniformBSpline::children<double>(Index, const double*, Count, double*, double*) const;
 
 }  // namespace subdivd

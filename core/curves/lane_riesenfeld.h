@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/index.h"
-#include "core/curves/control_curve.h"
+#include "core/curves/kinds.h"
 
 namespace subdivd {
 
@@ -17,7 +17,7 @@ namespace subdivd {
 //   odd degrees   c_{-k} = 2e - c_k, where e = c_0
 //   even degrees  d_{-k} = 2e - d_{k-1}, where e = c_0 and d_j = c_{j+1} are the other points
 // and likewise about the last. For p = 2 that is the clamped quadratic B-spline.
-CurveSplit lane_riesenfeld_split(Index degree);
+//   UniformBSpline::split()
 
 // a_{-h}, a_{1-h}, ...: degree + 2 weights, exact.
 std::vector<double> lane_riesenfeld_mask(Index degree);
@@ -25,14 +25,10 @@ std::vector<double> lane_riesenfeld_mask(Index degree);
 // Limits and derivatives at the points' parameters: the centred cardinal B-spline B_p and its derivative at
 // integers, values[k] = B_p(k), slopes[k] = -B_p'(k); at ends also at half integers. They are quotients of
 // integers, exact but for that one rounding. At the kinks of degree 1, the mean of both sides.
-LimitMasks lane_riesenfeld_limits(Index degree);
+//   UniformBSpline::limit_masks()
 
-// Children 2i into `first` and 2i+1 into `second` for consecutive points i: `scalars` scalars from `self` on,
-// `width` per point, whose neighbours within reach can be read too. The three arrays must not overlap.
-// Weights come before sums, and outer neighbours before inner ones, in pairs: nothing outgrows the points on
-// the way, and reversing the points reverses the children to the bit.
-template <class Real>
-void lane_riesenfeld_children(Index degree, Index width, const Real* self, Count scalars, Real* first,
-                              Real* second);
+// Children: weights come before sums, and outer neighbours before inner ones, in pairs: nothing outgrows the
+// points on the way, and reversing the points reverses the children to the bit.
+//   UniformBSpline::children()
 
 }  // namespace subdivd

@@ -5,9 +5,6 @@
 #include <cstddef>
 
 #include "core/curves/block_refiner.h"
-#include "core/curves/corner_cutting.h"
-#include "core/curves/four_point.h"
-#include "core/curves/lane_riesenfeld.h"
 
 namespace subdivd {
 namespace {
@@ -136,15 +133,7 @@ void LimitPass<Real>::mend_tangents(Real* to) {
 }
 
 LimitMasks masks_of(const ControlCurves& curves) {
-  switch (curves.basis) {
-    case CurveBasis::four_point:
-      return four_point_limits(curves.tension);
-    case CurveBasis::corner_cutting:
-      return corner_cutting_limits(curves.ratio);
-    default:
-      break;
-  }
-  return lane_riesenfeld_limits(curves.degree);
+  return visit_scheme(curves.basis, [](const auto& kind) { return kind.limit_masks(); });
 }
 
 template class LimitPass<float>;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/base/all_finite.h"
+#include "core/base/overloaded.h"
 #include "core/base/precision.h"
 #include "core/curves/curve_window.h"
 #include "core/splines/measurement.h"
@@ -43,7 +44,7 @@ struct Cell {
 };
 
 Cell cell_of(const SubdividedCurve& curve, double t) {
-  const bool four_point = curve.rule->basis == CurveBasis::four_point;
+  const bool four_point = std::holds_alternative<FourPoint>(curve.scheme);
   // The domain's end is the end of the cell before, and so is its derivative. Where nothing has a
   // kink the begin of the one behind serves as well: it gives points that do not exist the weight 0.
   const bool at_end = t == curve.end();
@@ -77,7 +78,7 @@ struct FourPointCell {
   static constexpr Index kBegin = 2;  // which of the points the cell begins at
 
   // tangent = ((1 - 2w) (q_{-1} + q_0) - 2w (q_{-2} + q_1)) / (2 (1 - 4w)) of differences q_k = c_{k+1} -
-  // c_k: four_point_limits()
+  // c_k: FourPoint::limit_masks()
   Weights at(bool end) const {
     Weights weights;
     const Index here = kBegin + (end ? 1 : 0);
@@ -200,13 +201,14 @@ Result<void> evaluate(const Scheme& scheme, const SubdividedCurve& curve, double
   return does_not_fit();
 }
 
-Result<void> check_order(const ControlCurves& rule, Index order) {
+Result<void> check_order(const LocalScheme& scheme, Index order) {
   if (order > 1)
     return refusal(ErrorCode::unsupported,
                    "four-point and corner-cutting curves have no derivatives of order " +
                        std::to_string(order) + "; ask for the first at most",
                    {"order"});
-  if (order == 1 && rule.basis == CurveBasis::corner_cutting && rule.ratio != 0.25)
+  const CornerCutting* cutting = std::get_if<CornerCutting>(&scheme);
+  if (order == 1 && cutting != nullptr && !cutting->is_quadratic_bspline())
     return refusal(
         ErrorCode::unsupported,
         "a corner-cutting curve has a derivative by its parameter for the ratio 1/4 only: for others "
@@ -231,18 +233,28 @@ double SubdividedCurve::end() const {
 }
 
 Result<SubdividedCurve> subdivided_curve(const ControlCurves& curves, Count curve, CurvePlace place) {
-  if (curves.basis != CurveBasis::four_point && curves.basis != CurveBasis::corner_cutting)
-    return refusal(
-        ErrorCode::unsupported,
-        "only four-point and corner-cutting curves are evaluated by subdivision; others are splines",
-        {"basis"});
   const Count width = curves.width;
-  return SubdividedCurve{
-      &curves, std::span(curves.points).subspan(place.points * width, curves.points_of_curve(curve) * width)};
+  const auto points =
+      std::span(curves.points).subspan(place.points * width, curves.points_of_curve(curve) * width);
+  const auto with = [&](const LocalScheme& scheme) -> Result<SubdividedCurve> {
+    return SubdividedCurve{.rule = &curves, .scheme = scheme, .points = points};
+  };
+  const auto refuse = [] {
+    return Result<SubdividedCurve>(
+        refusal(ErrorCode::unsupported,
+                "only four-point and corner-cutting curves are evaluated by subdivision; others are splines",
+                {"basis"}));
+  };
+  return std::visit(
+      Overloaded{[&](const FourPoint& kind) { return with(kind); },
+                 [&](const CornerCutting& kind) { return with(kind); },
+                 [&](const UniformBSpline&) { return refuse(); },
+                 [&](const PiecewiseKind auto&) { return refuse(); }, [&](const Nurbs&) { return refuse(); }},
+      curves.basis);
 }
 
 Result<void> derivatives(const SubdividedCurve& curve, double t, Index order, std::span<double> rows) {
-  if (auto checked = check_order(*curve.rule, order); !checked) return checked;
+  if (auto checked = check_order(curve.scheme, order); !checked) return checked;
   assert(rows.size() == (Count{order} + 1) * curve.dimension());
   // A line over the same domain takes the same parameters.
   const double begin = curve.begin(), end = curve.end();
@@ -254,9 +266,14 @@ Result<void> derivatives(const SubdividedCurve& curve, double t, Index order, st
     error.where = {"t"};
     return error;
   }
-  if (curve.rule->basis == CurveBasis::four_point)
-    return evaluate(FourPointCell{curve.rule->tension}, curve, *parameter, order, rows);
-  return evaluate(CornerCuttingCell{curve.rule->ratio}, curve, *parameter, order, rows);
+  return std::visit(Overloaded{[&](const FourPoint& kind) {
+                                 return evaluate(FourPointCell{kind.tension}, curve, *parameter, order, rows);
+                               },
+                               [&](const CornerCutting& kind) {
+                                 return evaluate(CornerCuttingCell{kind.ratio}, curve, *parameter, order,
+                                                 rows);
+                               }},
+                    curve.scheme);
 }
 
 }  // namespace subdivd

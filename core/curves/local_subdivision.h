@@ -18,6 +18,7 @@
 // parameter and any length: it is how often was cut that t counts, not how far the curve went.
 
 #include <span>
+#include <variant>
 
 #include "core/base/index.h"
 #include "core/base/result.h"
@@ -26,9 +27,13 @@
 
 namespace subdivd {
 
+// The kinds that have cells.
+using LocalScheme = std::variant<FourPoint, CornerCutting>;
+
 // One of the curves of `rule`, which must outlive it and must have passed check().
 struct SubdividedCurve {
   const ControlCurves* rule = nullptr;
+  LocalScheme scheme{};            // that of the rule
   std::span<const double> points;  // of this curve alone
 
   Index dimension() const { return rule->width; }

@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include "core/base/all_finite.h"
+#include "core/base/overloaded.h"
 #include "core/base/pace.h"
 #include "core/base/precision.h"
 #include "core/curves/bases.h"
@@ -18,26 +20,29 @@ Error fault(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where)};
 }
 
-Index order_of(const ControlCurves& curves, Count curve) {
-  return curves.orders.size() == 1 ? curves.orders[0] : curves.orders[curve];
-}
-
 std::span<const double> points_at(const ControlCurves& curves, Count curve, Count first) {
   return std::span(curves.points).subspan(first * curves.width, curves.points_of_curve(curve) * curves.width);
 }
 
 // The whole of curve `curve` on its knots, unchecked.
-Spline spline_on_knots(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
+Spline spline_on_knots(const ControlCurves& curves, const Nurbs& nurbs, Count curve, CurvePlace place,
+                       const Pace& pace) {
   const Count count = curves.points_of_curve(curve);
+  const Index order = nurbs.order_of(curve);
   const std::span<const double> points = points_at(curves, curve, place.points);
-  Spline spline{order_of(curves, curve) - 1, curves.width, false, false, {}, {}};
-  pace.copy(std::span(curves.knots).subspan(place.knots, count + order_of(curves, curve)), spline.knots);
-  if (curves.weights.empty()) {
+  Spline spline{.degree = order - 1,
+                .width = curves.width,
+                .rational = false,
+                .periodic = false,
+                .knots = {},
+                .points = {}};
+  pace.copy(std::span(nurbs.knots).subspan(place.knots, count + order), spline.knots);
+  if (nurbs.weights.empty()) {
     pace.copy(points, spline.points);
     return spline;
   }
   spline.points =
-      homogeneous(points, curves.width, std::span(curves.weights).subspan(place.points, count), pace);
+      homogeneous(points, curves.width, std::span(nurbs.weights).subspan(place.points, count), pace);
   spline.rational = true;
   ++spline.width;
   return spline;
@@ -45,75 +50,58 @@ Spline spline_on_knots(const ControlCurves& curves, Count curve, CurvePlace plac
 
 // --- Checks -----------------------------------------------------------------------------------------------
 
-// How the points of a curve must be counted.
-Result<void> check_count(const ControlCurves& curves, Count count, const Path& where) {
-  const bool closed = curves.wrap == CurveWrap::periodic;
-  const auto refuse = [&](ErrorCode code, const char* rule) {
-    return Result<void>(fault(code, std::string(rule) + "; this one has " + std::to_string(count), where));
-  };
-  switch (curves.basis) {
-    case CurveBasis::bezier:
-      if (closed && (count < 3 || count % 3 != 0))
-        return refuse(count < 3 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
-                      "a closed Bezier curve of k segments has 3 k points");
-      if (!closed && (count < 4 || count % 3 != 1))
-        return refuse(count < 4 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
-                      "a Bezier curve of k segments has 3 k + 1 points");
-      return {};
-    case CurveBasis::hermite:
-      if (count < 4 || count % 2 != 0)
-        return refuse(count < 4 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
-                      "a Hermite curve has a tangent behind every point, and at least two of both");
-      return {};
-    case CurveBasis::catmull_rom:
-      if (closed && count < 3)
-        return refuse(ErrorCode::too_few_points, "a closed Catmull-Rom curve needs at least 3 points");
-      if (curves.wrap == CurveWrap::pinned && count < 2)
-        return refuse(ErrorCode::too_few_points, "a pinned Catmull-Rom curve needs at least 2 points");
-      if (curves.wrap == CurveWrap::nonperiodic && count < 4)
-        return refuse(ErrorCode::too_few_points, "a nonperiodic Catmull-Rom curve needs at least 4 points");
-      return {};
-    default:
-      return {};
-  }
+Result<void> refuse_count(ErrorCode code, const char* rule, Count points, const Path& where) {
+  return fault(code, std::string(rule) + "; this one has " + std::to_string(points), where);
+}
+
+// Of the kinds that say how their points are counted; knots are counted with them.
+Result<void> check_count(const ControlCurves& curves, Count points, const Path& where) {
+  return std::visit(
+      [&]<class Kind>(const Kind& kind) -> Result<void> {
+        if constexpr (PiecewiseKind<Kind>)
+          return kind.check_count(points, curves.wrap, where);
+        else
+          return {};
+      },
+      curves.basis);
 }
 
 // All lengths that must agree before any curve can be looked at.
-Result<void> check_lengths(const ControlCurves& curves, const Pace& pace) {
+Result<void> check_lengths(const ControlCurves& curves, const Nurbs& nurbs, const Pace& pace) {
   const Count count = curves.curve_count();
-  if (curves.orders.size() != 1 && curves.orders.size() != count)
+  if (nurbs.orders.size() != 1 && nurbs.orders.size() != count)
     return fault(ErrorCode::wrong_length,
-                 "there are " + std::to_string(curves.orders.size()) +
+                 "there are " + std::to_string(nurbs.orders.size()) +
                      " orders; one for all curves or one for each of " + std::to_string(count) + " is needed",
                  {"order"});
   Count knots = 0;
   for (Count c = 0; c < count; ++c) {
     pace.spend(1);
-    const Index order = order_of(curves, c);
+    const Index order = nurbs.order_of(c);
     if (order < 2 || order > kMaxDegree + 1)
       return fault(ErrorCode::out_of_range,
                    "the order is " + std::to_string(order) + "; it is the degree and one more, 2 to " +
                        std::to_string(kMaxDegree + 1),
-                   curves.orders.size() == 1 ? Path{"order"} : Path{"order", std::uint64_t{c}});
+                   nurbs.orders.size() == 1 ? Path{"order"} : Path{"order", std::uint64_t{c}});
     knots += curves.points_of_curve(c) + order;
   }
-  if (knots != curves.knots.size())
+  if (knots != nurbs.knots.size())
     return fault(ErrorCode::wrong_length,
-                 "there are " + std::to_string(curves.knots.size()) +
+                 "there are " + std::to_string(nurbs.knots.size()) +
                      " knots; points and order of every curve together make " + std::to_string(knots),
                  {"knots"});
-  if (!curves.weights.empty() && curves.weights.size() != curves.point_count())
+  if (!nurbs.weights.empty() && nurbs.weights.size() != curves.point_count())
     return fault(ErrorCode::wrong_length,
-                 "there are " + std::to_string(curves.weights.size()) + " weights for " +
+                 "there are " + std::to_string(nurbs.weights.size()) + " weights for " +
                      std::to_string(curves.point_count()) + " points",
                  {"pointWeights"});
-  if (!curves.ranges.empty() && curves.ranges.size() != 2 * count)
+  if (!nurbs.ranges.empty() && nurbs.ranges.size() != 2 * count)
     return fault(ErrorCode::wrong_length, "every curve has one range of two parameters", {"ranges"});
   return {};
 }
 
 // A place in one curve as one in the arrays of all.
-Path shifted(Path where, const ControlCurves& curves, Count curve, CurvePlace place) {
+Path shifted(Path where, const ControlCurves& curves, bool weighted, Count curve, CurvePlace place) {
   if (where.empty()) return {"curveVertexCounts"};
   const std::string field = std::get<std::string>(where[0]);
   if (where.size() == 1) {
@@ -127,7 +115,7 @@ Path shifted(Path where, const ControlCurves& curves, Count curve, CurvePlace pl
   if (field == "pointWeights") index += place.points;
   if (field == "points") {
     // Stored points have their weights among them.
-    if (!curves.weights.empty()) {
+    if (weighted) {
       const std::uint64_t stored = curves.width + std::uint64_t{1};
       index = index / stored * curves.width + std::min<std::uint64_t>(index % stored, curves.width - 1);
     }
@@ -136,10 +124,10 @@ Path shifted(Path where, const ControlCurves& curves, Count curve, CurvePlace pl
   return where;
 }
 
-Result<void> check_weights(const ControlCurves& curves, const Pace& pace) {
-  for (Count i = 0; i < curves.weights.size(); ++i) {
+Result<void> check_weights(std::span<const double> weights, const Pace& pace) {
+  for (Count i = 0; i < weights.size(); ++i) {
     pace.spend(1);
-    const double weight = curves.weights[i];
+    const double weight = weights[i];
     if (weight > 0 && std::isfinite(weight)) continue;
     return fault(std::isfinite(weight) ? ErrorCode::out_of_range : ErrorCode::not_finite,
                  "weight " + std::to_string(i) + " is " + std::to_string(weight) +
@@ -156,21 +144,22 @@ Count largest_spline(const ControlCurves& curves, const Pace& pace) {
   return (most * (Count{curves.width} + 2) + kMaxDegree + 1) * sizeof(double);
 }
 
-Result<void> check_on_knots(const ControlCurves& curves, const Budget& budget, const Pace& pace) {
-  if (auto fine = check_lengths(curves, pace); !fine) return fine;
-  if (auto fine = check_weights(curves, pace); !fine) return fine;
+Result<void> check_on_knots(const ControlCurves& curves, const Nurbs& nurbs, const Budget& budget,
+                            const Pace& pace) {
+  if (auto fine = check_lengths(curves, nurbs, pace); !fine) return fine;
+  if (auto fine = check_weights(nurbs.weights, pace); !fine) return fine;
   if (auto taken = budget.take_memory(largest_spline(curves, pace)); !taken) return taken;
   CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); ++c) {
     pace.spend(1);
-    const Spline spline = spline_on_knots(curves, c, place, pace);
+    const Spline spline = spline_on_knots(curves, nurbs, c, place, pace);
     if (auto fine = spline.check(budget); !fine) {
       if (!is_stop(fine.error()))
-        fine.error().where = shifted(std::move(fine.error().where), curves, c, place);
+        fine.error().where = shifted(std::move(fine.error().where), curves, !nurbs.weights.empty(), c, place);
       return fine;
     }
-    if (!curves.ranges.empty()) {
-      const double from = curves.ranges[2 * c], to = curves.ranges[2 * c + 1];
+    if (!nurbs.ranges.empty()) {
+      const double from = nurbs.ranges[2 * c], to = nurbs.ranges[2 * c + 1];
       if (!(from >= spline.begin() && from < to && to <= spline.end()))
         return fault(ErrorCode::out_of_range,
                      "the range must ascend within the domain, " + std::to_string(spline.begin()) + " to " +
@@ -184,9 +173,52 @@ Result<void> check_on_knots(const ControlCurves& curves, const Budget& budget, c
 
 }  // namespace
 
+Result<void> Bezier::check_count(Count points, CurveWrap wrap, const Path& where) const {
+  const bool closed = wrap == CurveWrap::periodic;
+  if (closed && (points < 3 || points % 3 != 0))
+    return refuse_count(points < 3 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
+                        "a closed Bezier curve of k segments has 3 k points", points, where);
+  if (!closed && (points < 4 || points % 3 != 1))
+    return refuse_count(points < 4 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
+                        "a Bezier curve of k segments has 3 k + 1 points", points, where);
+  return {};
+}
+
+Count Bezier::segments(Count points, CurveWrap) const { return points / 3; }
+
+Result<void> CatmullRom::check_count(Count points, CurveWrap wrap, const Path& where) const {
+  const auto refuse = [&](const char* rule) {
+    return refuse_count(ErrorCode::too_few_points, rule, points, where);
+  };
+  if (wrap == CurveWrap::periodic && points < 3)
+    return refuse("a closed Catmull-Rom curve needs at least 3 points");
+  if (wrap == CurveWrap::pinned && points < 2)
+    return refuse("a pinned Catmull-Rom curve needs at least 2 points");
+  if (wrap == CurveWrap::nonperiodic && points < 4)
+    return refuse("a nonperiodic Catmull-Rom curve needs at least 4 points");
+  return {};
+}
+
+Count CatmullRom::segments(Count points, CurveWrap wrap) const {
+  if (wrap == CurveWrap::periodic) return points;
+  return points - (wrap == CurveWrap::pinned ? 1 : 3);
+}
+
+Result<void> Hermite::check_count(Count points, CurveWrap, const Path& where) const {
+  if (points >= 4 && points % 2 == 0) return {};
+  return refuse_count(points < 4 ? ErrorCode::too_few_points : ErrorCode::wrong_length,
+                      "a Hermite curve has a tangent behind every point, and at least two of both", points,
+                      where);
+}
+
+Count Hermite::segments(Count points, CurveWrap wrap) const {
+  return points / 2 - (wrap == CurveWrap::periodic ? 0 : 1);
+}
+
 CurvePlace next_place(const ControlCurves& curves, Count curve, CurvePlace place) {
   const Count points = curves.points_of_curve(curve);
-  const Count knots = curves.basis == CurveBasis::nurbs ? points + order_of(curves, curve) : 0;
+  const Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  const Count knots = nurbs != nullptr ? points + nurbs->order_of(curve) : 0;
   return {place.points + points, place.knots + knots};
 }
 
@@ -219,38 +251,51 @@ Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget) 
                  "the counts of curveVertexCounts add up to " + std::to_string(taken) + "; there are " +
                      std::to_string(curves.point_count()) + " points",
                  {"curveVertexCounts"});
-  if (curves.basis != CurveBasis::nurbs) return {};
-  return stoppable(budget, [&](const Pace& pace) { return check_on_knots(curves, budget, pace); });
+  const Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  if (nurbs == nullptr) return {};
+  return stoppable(budget, [&](const Pace& pace) { return check_on_knots(curves, *nurbs, budget, pace); });
 }
 
 namespace {
 
-Result<Spline> made_of(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
-  const std::span<const double> points = points_at(curves, curve, place.points);
-  switch (curves.basis) {
-    case CurveBasis::bspline:
-      return spline_of_bspline(points, curves.width, curves.wrap, curves.degree, pace);
-    case CurveBasis::corner_cutting:
-      if (curves.ratio == 0.25) return spline_of_bspline(points, curves.width, curves.wrap, 2, pace);
-      return fault(ErrorCode::unsupported,
-                   "corner cutting at another ratio than 1/4 makes a curve without a formula", {"ratio"});
-    case CurveBasis::four_point:
-      return fault(ErrorCode::unsupported, "a four-point curve has no formula; it can be refined only",
-                   {"basis"});
-    case CurveBasis::bezier:
-      return spline_of_bezier(points, curves.width, curves.wrap, pace);
-    case CurveBasis::catmull_rom:
-      return spline_of_catmull_rom(points, curves.width, curves.wrap, curves.spacing, pace);
-    case CurveBasis::hermite:
-      return spline_of_hermite(points, curves.width, curves.wrap, pace);
-    case CurveBasis::nurbs:
-      break;
-  }
-  Spline spline = spline_on_knots(curves, curve, place, pace);
-  if (curves.ranges.empty()) return spline;
-  const double from = curves.ranges[2 * curve], to = curves.ranges[2 * curve + 1];
+// The part of a curve on knots that its range leaves.
+Result<Spline> ranged_spline(const ControlCurves& curves, const Nurbs& nurbs, Count curve, CurvePlace place,
+                             const Pace& pace) {
+  Spline spline = spline_on_knots(curves, nurbs, curve, place, pace);
+  if (nurbs.ranges.empty()) return spline;
+  const double from = nurbs.ranges[2 * curve], to = nurbs.ranges[2 * curve + 1];
   if (from == spline.begin() && to == spline.end()) return spline;
   return part(spline, from, to, pace.budget());
+}
+
+Result<Spline> make_spline(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
+  const std::span<const double> points = points_at(curves, curve, place.points);
+  const Index width = curves.width;
+  const CurveWrap wrap = curves.wrap;
+  using R = Result<Spline>;
+  return std::visit(
+      Overloaded{
+          [&](const UniformBSpline& kind) -> R {
+            return spline_of_bspline(points, width, wrap, kind.degree, pace);
+          },
+          [&](const FourPoint&) -> R {
+            return fault(ErrorCode::unsupported, "a four-point curve has no formula; it can be refined only",
+                         {"basis"});
+          },
+          [&](const CornerCutting& kind) -> R {
+            if (kind.is_quadratic_bspline()) return spline_of_bspline(points, width, wrap, 2, pace);
+            return fault(ErrorCode::unsupported,
+                         "corner cutting at another ratio than 1/4 makes a curve without a formula",
+                         {"ratio"});
+          },
+          [&](const Bezier&) -> R { return spline_of_bezier(points, width, wrap, pace); },
+          [&](const CatmullRom& kind) -> R {
+            return spline_of_catmull_rom(points, width, wrap, kind.spacing, pace);
+          },
+          [&](const Hermite&) -> R { return spline_of_hermite(points, width, wrap, pace); },
+          [&](const Nurbs& nurbs) -> R { return ranged_spline(curves, nurbs, curve, place, pace); },
+      },
+      curves.basis);
 }
 
 }  // namespace
@@ -258,7 +303,7 @@ Result<Spline> made_of(const ControlCurves& curves, Count curve, CurvePlace plac
 Result<Spline> spline_of(const ControlCurves& curves, Count curve, CurvePlace place, const Budget& budget) {
   assert(curve < curves.curve_count());
   return stoppable(budget, [&](const Pace& pace) {
-    auto spline = made_of(curves, curve, place, pace);
+    auto spline = make_spline(curves, curve, place, pace);
     if (!spline) return spline;
     // Phantom points and tangents are up to three times as large as what was given.
     bool finite = true;
@@ -290,14 +335,13 @@ SplineSize size_of_uniform(CurveWrap wrap, Count points, Index degree) {
 }
 
 // On knots the knots tell, without a copy of the points.
-SplineSize size_on_knots(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
-  const Count count = curves.points_of_curve(curve);
-  const Index order = order_of(curves, curve);
-  const std::span<const double> knots = std::span(curves.knots).subspan(place.knots, count + order);
+SplineSize size_on_knots(const Nurbs& nurbs, Count count, Count curve, CurvePlace place, const Pace& pace) {
+  const Index order = nurbs.order_of(curve);
+  const std::span<const double> knots = std::span(nurbs.knots).subspan(place.knots, count + order);
   double from = knots[order - 1], to = knots[count];
   const bool whole =
-      curves.ranges.empty() || (curves.ranges[2 * curve] == from && curves.ranges[2 * curve + 1] == to);
-  if (!whole) from = curves.ranges[2 * curve], to = curves.ranges[2 * curve + 1];
+      nurbs.ranges.empty() || (nurbs.ranges[2 * curve] == from && nurbs.ranges[2 * curve + 1] == to);
+  if (!whole) from = nurbs.ranges[2 * curve], to = nurbs.ranges[2 * curve + 1];
   Count inside = 0, breaks = 0;  // knots inside the range; different ones
   pace.for_each(knots.size(), [&](Count k) {
     if (!(knots[k] > from && knots[k] < to)) return;
@@ -311,34 +355,42 @@ SplineSize size_on_knots(const ControlCurves& curves, Count curve, CurvePlace pl
 
 SplineSize spline_size(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace) {
   const Count count = curves.points_of_curve(curve);
-  const bool closed = curves.wrap == CurveWrap::periodic;
-  switch (curves.basis) {
-    case CurveBasis::bspline:
-      return size_of_uniform(curves.wrap, count, curves.degree);
-    case CurveBasis::four_point:
-    case CurveBasis::corner_cutting:
-      return size_of_uniform(curves.wrap, count, 2);
-    case CurveBasis::bezier:
-      return size_of_pieces(count / 3);
-    case CurveBasis::hermite:
-      return size_of_pieces(count / 2 - (closed ? 0 : 1));
-    case CurveBasis::catmull_rom:
-      return size_of_pieces(closed ? count : count - (curves.wrap == CurveWrap::pinned ? 1 : 3));
-    case CurveBasis::nurbs:
-      break;
-  }
-  return size_on_knots(curves, curve, place, pace);
+  const CurveWrap wrap = curves.wrap;
+  return std::visit(
+      Overloaded{
+          [&](const UniformBSpline& kind) { return size_of_uniform(wrap, count, kind.degree); },
+          [&](const FourPoint&) { return size_of_uniform(wrap, count, 2); },
+          [&](const CornerCutting&) { return size_of_uniform(wrap, count, 2); },
+          [&](const PiecewiseKind auto& kind) { return size_of_pieces(kind.segments(count, wrap)); },
+          [&](const Nurbs& nurbs) { return size_on_knots(nurbs, count, curve, place, pace); },
+      },
+      curves.basis);
+}
+
+Count spline_bytes(const ControlCurves& curves, Count curve) {
+  constexpr Count kCopies = 10;
+  const Count degree =
+      std::visit(Overloaded{[](const UniformBSpline& kind) { return Count{kind.degree}; },
+                            [](const FourPoint&) { return Count{3}; },      // it has none
+                            [](const CornerCutting&) { return Count{3}; },  // 2, and room to spare
+                            [](const PiecewiseKind auto&) { return Count{3}; },
+                            [&](const Nurbs& nurbs) { return nurbs.order_of(curve) - Count{1}; }},
+                 curves.basis);
+  const Count points = curves.points_of_curve(curve) + 2 * (degree + 1);
+  const bool by_pieces = family_of(curves.basis) == CurveFamily::pieces;
+  const Count numbers = points * (Count{curves.width} + 2) * (by_pieces ? 3 : 1);
+  return numbers * kCopies * sizeof(double);
 }
 
 Count refined_piecewise_count(const ControlCurves& curves, Index level, const Pace& pace) {
   const Count parts = Count{1} << level;
+  const bool on_knots = family_of(curves.basis) == CurveFamily::on_knots;
   Count total = 0;
   CurvePlace place;
   for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
     pace.spend(1);
     const SplineSize size = spline_size(curves, c, place, pace);
-    total += curves.basis == CurveBasis::nurbs ? size.points + size.spans * (parts - 1)
-                                               : 3 * size.spans * parts + 1;
+    total += on_knots ? size.points + size.spans * (parts - 1) : 3 * size.spans * parts + 1;
   }
   return total;
 }

@@ -38,6 +38,11 @@ struct SplineSize {
 };
 SplineSize spline_size(const ControlCurves& curves, Count curve, CurvePlace place, const Pace& pace = {});
 
+// Bytes while spline_of() makes a curve, and while that is brought into coordinates of its own: copies of its
+// points and knots, which grow. Curves that are closed or start at their first point get up to a degree more
+// of points.
+Count spline_bytes(const ControlCurves& curves, Count curve);
+
 // The part of check() for bases that are given by pieces or on knots. Places as the JSON names them: points
 // and curveVertexCounts, order, knots, ranges, pointWeights with the index in the whole array.
 Result<void> check_piecewise(const ControlCurves& curves, const Budget& budget = {});
@@ -51,9 +56,9 @@ Count refined_piecewise_count(const ControlCurves& curves, Index level, const Pa
 // open and ending where they begin. Limits stand at the mean of the knots that a control point feels
 // (Greville's abscissae), or at the same share of their segment.
 struct RefinedPiecewise {
-  CurveBasis basis = CurveBasis::bezier;
-  std::vector<Index> vertex_counts, orders;
-  std::vector<double> points, weights, knots, limit_points, tangents;
+  CurveBasis basis = Bezier{};  // or Nurbs
+  std::vector<Index> vertex_counts;
+  std::vector<double> points, limit_points, tangents;
 };
 Result<RefinedPiecewise> refine_piecewise(const ControlCurves& curves, const CurveOptions& options,
                                           const Budget& budget);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "core/base/pace.h"
 #include "core/curves/bases.h"
@@ -12,18 +13,20 @@ namespace subdivd {
 namespace {
 
 // Parameters at which the points of a refined curve are taken to stand.
-std::vector<double> parameters_of(const Spline& spline, CurveBasis basis, const Pace& pace) {
+std::vector<double> greville_abscissae(const Spline& spline, const Pace& pace) {
   std::vector<double> ts;
-  if (basis == CurveBasis::nurbs) {
-    ts.reserve(spline.point_count());
-    for (Count i = 0; i < spline.point_count(); ++i) {
-      pace.spend(spline.degree);
-      double mean = 0;
-      for (Index k = 1; k <= spline.degree; ++k) mean += spline.knots[i + k] / spline.degree;
-      ts.push_back(std::clamp(mean, spline.begin(), spline.end()));
-    }
-    return ts;
+  ts.reserve(spline.point_count());
+  for (Count i = 0; i < spline.point_count(); ++i) {
+    pace.spend(spline.degree);
+    double mean = 0;
+    for (Index k = 1; k <= spline.degree; ++k) mean += spline.knots[i + k] / spline.degree;
+    ts.push_back(std::clamp(mean, spline.begin(), spline.end()));
   }
+  return ts;
+}
+
+std::vector<double> thirds_of_pieces(const Spline& spline, const Pace& pace) {
+  std::vector<double> ts;
   // The ends of its Bezier pieces are knots.
   for (Count i = spline.degree; i < spline.point_count(); ++i) {
     pace.spend(3);
@@ -46,7 +49,8 @@ Result<void> add_limits(const Spline& refined, const CurveOptions& options, cons
     pace.make_room(to, dimension);
     to.insert(to.end(), row.begin(), row.end());
   };
-  for (const double t : parameters_of(refined, all.basis, pace)) {
+  const bool on_knots = std::holds_alternative<Nurbs>(all.basis);
+  for (const double t : on_knots ? greville_abscissae(refined, pace) : thirds_of_pieces(refined, pace)) {
     pace.spend(64 + 2 * order * (order + refined.width));
     if (auto done = derivatives(refined, t, 1, rows); !done) return done;
     if (options.limit) add(std::span(rows).first(dimension), all.limit_points);
@@ -60,11 +64,11 @@ Result<void> add_refined(const Spline& spline, const CurveOptions& options, cons
   const auto refined = refine_spans(spline, options.level, budget);
   if (!refined) return refined.error();
   const Count before = all.points.size();
-  if (all.basis == CurveBasis::nurbs) {
+  if (Nurbs* on_knots = std::get_if<Nurbs>(&all.basis)) {
     pace.append(projected(*refined, pace), all.points);
-    pace.append(weights(*refined, pace), all.weights);
-    pace.append(refined->knots, all.knots);
-    all.orders.push_back(refined->degree + 1);
+    pace.append(weights(*refined, pace), on_knots->weights);
+    pace.append(refined->knots, on_knots->knots);
+    on_knots->orders.push_back(refined->degree + 1);
   } else {
     const auto points = bezier_points(*refined, budget);
     if (!points) return points.error();
@@ -80,7 +84,7 @@ Result<RefinedPiecewise> refine_piecewise(const ControlCurves& curves, const Cur
                                           const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) -> Result<RefinedPiecewise> {
     RefinedPiecewise all;
-    if (curves.basis == CurveBasis::nurbs) all.basis = CurveBasis::nurbs;
+    if (family_of(curves.basis) == CurveFamily::on_knots) all.basis = Nurbs{};
     CurvePlace place;
     for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
       const auto spline = spline_of(curves, c, place, budget);

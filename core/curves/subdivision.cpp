@@ -168,11 +168,8 @@ Result<RefinedCurves<Real>> refine_by_pieces(const ControlCurves& curves, const 
   refined.level = options.level;
   refined.width = curves.width;
   refined.wrap = CurveWrap::nonperiodic;
-  refined.basis = pieces->basis;
+  refined.basis = std::move(pieces->basis);
   refined.vertex_counts = std::move(pieces->vertex_counts);
-  refined.orders = std::move(pieces->orders);
-  refined.knots = std::move(pieces->knots);
-  refined.weights = std::move(pieces->weights);
   if (!convert<Real>(pieces->points, refined.points, pace) ||
       !convert<Real>(pieces->limit_points, refined.limit_points, pace) ||
       !convert<Real>(pieces->tangents, refined.tangents, pace))
@@ -192,9 +189,6 @@ Result<RefinedCurves<Real>> refine_by_steps(const ControlCurves& curves, const C
   refined.width = curves.width;
   refined.wrap = curves.wrap;
   refined.basis = curves.basis;
-  refined.degree = curves.degree;
-  refined.tension = curves.tension;
-  refined.ratio = curves.ratio;
   const Count scalars = total_point_count(curves, options.level, pace) * curves.width;
   refined.points.resize(scalars);
   if (options.limit) refined.limit_points.resize(scalars);

@@ -51,11 +51,7 @@ struct RefinedCurves {
   Buffer<Real> tangents;
   // As given, with what belongs to it; curves by pieces come back as Bezier curves (see piecewise.h), and
   // they and those on knots are not periodic any more.
-  CurveBasis basis = CurveBasis::bspline;
-  Index degree = 3;
-  double tension = 1.0 / 16, ratio = 1.0 / 4;
-  std::vector<Index> orders;
-  std::vector<double> knots, weights;
+  CurveBasis basis{};
 };
 
 // Points of all curves together after `level` steps, whatever their basis.

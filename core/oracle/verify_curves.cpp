@@ -52,7 +52,8 @@ Result<CurveReport> compare_levels(const ControlCurves& curves, const CurveOptio
 
 template <class Real>
 Result<CurveReport> verify(const ControlCurves& curves, const CurveOptions& options, const Budget& budget) {
-  if (curves.basis != CurveBasis::bspline || curves.degree != 3)
+  const UniformBSpline* bspline = std::get_if<UniformBSpline>(&curves.basis);
+  if (bspline == nullptr || bspline->degree != 3)
     return Error{
         ErrorCode::unsupported,
         "OpenSubdiv knows uniform cubic B-splines only; verification needs basis \"bspline\" of degree 3",

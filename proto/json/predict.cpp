@@ -52,10 +52,11 @@ Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, 
 
 // Orders, knots and weights, which are doubles always; refining adds as many knots as points.
 Count on_knots_text(const ControlCurves& curves, Count points) {
-  if (curves.basis != CurveBasis::nurbs) return 0;
+  const Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  if (nurbs == nullptr) return 0;
   const Count knots = points + (Count{kMaxDegree} + 1) * curves.curve_count();
   return indices_text(curves.curve_count(), kMaxDegree + 1) +
-         (knots + (curves.weights.empty() ? 0 : points)) * kDoubleText;
+         (knots + (nurbs->weights.empty() ? 0 : points)) * kDoubleText;
 }
 
 Count curves_text(const ControlCurves& curves, Index level, Count number, bool tangents) {

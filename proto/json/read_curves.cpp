@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/splines/spline.h"
 #include "proto/json/read_mesh.h"
@@ -64,26 +67,20 @@ bool CurvesReader::name() { return cursor_.read_string(out_.curves.name); }
 
 bool CurvesReader::type() { return read_word(kTypes, type_); }
 
-bool CurvesReader::basis() {
-  // Of the enumeration, knots have a type of their own.
-  std::size_t word = 0;
-  if (!cursor_.read_word(basis_words(), word)) return false;
-  out_.curves.basis = static_cast<CurveBasis>(word);
-  return given(Part::basis);
-}
+bool CurvesReader::basis() { return cursor_.read_word(basis_words(), basis_) && given(Part::basis); }
 
-bool CurvesReader::degree() { return read_whole_number(cursor_, out_.curves.degree) && given(Part::degree); }
+bool CurvesReader::degree() { return read_whole_number(cursor_, bspline_.degree) && given(Part::degree); }
 
 bool CurvesReader::wrap() { return read_wrap(out_.curves.wrap) && given(Part::wrap); }
 
-bool CurvesReader::tension() { return read_number(out_.curves.tension) && given(Part::tension); }
+bool CurvesReader::tension() { return read_number(four_point_.tension) && given(Part::tension); }
 
-bool CurvesReader::ratio() { return read_number(out_.curves.ratio) && given(Part::ratio); }
+bool CurvesReader::ratio() { return read_number(corner_cutting_.ratio) && given(Part::ratio); }
 
 bool CurvesReader::spacing() {
   std::size_t word = 0;
   if (!cursor_.read_word(spacing_words(), word)) return false;
-  out_.curves.spacing = static_cast<Spacing>(word);
+  catmull_rom_.spacing = static_cast<Spacing>(word);
   return given(Part::spacing);
 }
 
@@ -110,26 +107,26 @@ bool CurvesReader::curve_vertex_counts() {
 bool CurvesReader::order() {
   out_.form.order_list = cursor_.type() == Type::array;
   if (out_.form.order_list) {
-    if (!read_indices(cursor_, out_.curves.orders)) return false;
+    if (!read_indices(cursor_, nurbs_.orders)) return false;
   } else {
     Index one = 0;
     if (!read_whole_number(cursor_, one)) return false;
-    out_.curves.orders = {one};
+    nurbs_.orders = {one};
   }
   return given(Part::order);
 }
 
-bool CurvesReader::knots() { return read_numbers(out_.curves.knots) && given(Part::knots); }
+bool CurvesReader::knots() { return read_numbers(nurbs_.knots) && given(Part::knots); }
 
 bool CurvesReader::ranges() {
   Tuples tuples;
   if (!read_tuples(cursor_, 2, 2, "range", tuples)) return false;
   out_.form.ranges = tuples.form;
-  out_.curves.ranges = std::move(tuples.values);
+  nurbs_.ranges = std::move(tuples.values);
   return given(Part::ranges);
 }
 
-bool CurvesReader::point_weights() { return read_numbers(out_.curves.weights) && given(Part::point_weights); }
+bool CurvesReader::point_weights() { return read_numbers(nurbs_.weights) && given(Part::point_weights); }
 
 bool CurvesReader::tangents() {
   Tuples unused;
@@ -178,17 +175,26 @@ bool CurvesReader::finish() {
   if (!has_points_)
     return cursor_.fail(ErrorCode::missing_field, surface ? "a surface needs points" : "a curve needs points",
                         {"points"});
-  if (type_ == static_cast<std::size_t>(CurveType::nurbs)) out_.curves.basis = CurveBasis::nurbs;
+  out_.curves.basis = chosen_basis();
   if (!check_members()) return false;
   return surface ? settle_surface() : settle_type();
+}
+
+// The kind that type and basis name, with the members that have been read of it.
+CurveBasis CurvesReader::chosen_basis() {
+  if (type_ == static_cast<std::size_t>(CurveType::nurbs)) return std::move(nurbs_);
+  CurveBasis all[] = {bspline_, four_point_, corner_cutting_, Bezier{}, catmull_rom_, Hermite{}};
+  static_assert(std::size(all) + 1 == std::variant_size_v<CurveBasis>);
+  const auto named = [&](const CurveBasis& basis) { return word_of(basis) == basis_words()[basis_]; };
+  return *std::ranges::find_if(all, named);
 }
 
 // What belongs to one kind may not stand at another: it would be ignored.
 bool CurvesReader::check_members() {
   const ControlCurves& curves = out_.curves;
   const bool surface = type_ == static_cast<std::size_t>(CurveType::surface);
-  const bool on_knots = curves.basis == CurveBasis::nurbs;
-  const bool is_bspline = curves.basis == CurveBasis::bspline;
+  const bool on_knots = std::holds_alternative<Nurbs>(curves.basis);
+  const bool is_bspline = std::holds_alternative<UniformBSpline>(curves.basis);
   struct Rule {
     Part part;
     const char *name, *belongs_to;
@@ -199,9 +205,9 @@ bool CurvesReader::check_members() {
       {Part::basis, "basis", "type \"cubic\" or \"linear\"", !on_knots && !surface},
       {Part::wrap, "wrap", "type \"cubic\" or \"linear\"", !on_knots},
       {Part::degree, "degree", "basis \"bspline\"", is_bspline},
-      {Part::tension, "tension", "basis \"fourPoint\"", curves.basis == CurveBasis::four_point},
-      {Part::ratio, "ratio", "basis \"cornerCutting\"", curves.basis == CurveBasis::corner_cutting},
-      {Part::spacing, "spacing", "basis \"catmullRom\"", curves.basis == CurveBasis::catmull_rom},
+      {Part::tension, "tension", "basis \"fourPoint\"", std::holds_alternative<FourPoint>(curves.basis)},
+      {Part::ratio, "ratio", "basis \"cornerCutting\"", std::holds_alternative<CornerCutting>(curves.basis)},
+      {Part::spacing, "spacing", "basis \"catmullRom\"", std::holds_alternative<CatmullRom>(curves.basis)},
       {Part::order, "order", "type \"nurbs\"", on_knots},
       {Part::knots, "knots", "type \"nurbs\"", on_knots},
       {Part::ranges, "ranges", "type \"nurbs\"", on_knots},
@@ -251,8 +257,8 @@ bool CurvesReader::settle_surface() {
         {"points"});
   // One degree or wrap for both directions, unless a direction has its own.
   if (is_given(Part::degree)) {
-    if (!is_given(Part::u_degree)) surface_.u_degree = read.degree;
-    if (!is_given(Part::v_degree)) surface_.v_degree = read.degree;
+    if (!is_given(Part::u_degree)) surface_.u_degree = bspline_.degree;
+    if (!is_given(Part::v_degree)) surface_.v_degree = bspline_.degree;
   }
   if (is_given(Part::wrap)) {
     if (!is_given(Part::u_wrap)) surface_.u_wrap = read.wrap;
@@ -270,18 +276,18 @@ bool CurvesReader::settle_surface() {
 // "cubic" and "linear" say the degree of a B-spline, too.
 bool CurvesReader::settle_type() {
   if (!type_ || *type_ == static_cast<std::size_t>(CurveType::nurbs)) return true;
-  ControlCurves& curves = out_.curves;
+  UniformBSpline* bspline = std::get_if<UniformBSpline>(&out_.curves.basis);
   const bool linear = *type_ == static_cast<std::size_t>(CurveType::linear);
-  if (linear && curves.basis != CurveBasis::bspline)
+  if (linear && bspline == nullptr)
     return cursor_.fail(ErrorCode::wrong_type, "a curve of type \"linear\" has no basis but \"bspline\"",
                         {"basis"});
-  if (curves.basis != CurveBasis::bspline) return true;
+  if (bspline == nullptr) return true;
   const Index degree = linear ? 1 : 3;
-  if (is_given(Part::degree) && curves.degree != degree)
+  if (is_given(Part::degree) && bspline->degree != degree)
     return cursor_.fail(ErrorCode::out_of_range,
                         "the type says degree " + std::to_string(degree) + "; leave out one of the two",
                         {"degree"});
-  curves.degree = degree;
+  bspline->degree = degree;
   return true;
 }
 

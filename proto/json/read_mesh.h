@@ -136,6 +136,7 @@ class CurvesReader {
     return true;
   }
   bool is_given(Part part) const { return given_[static_cast<std::size_t>(part)]; }
+  CurveBasis chosen_basis();
   bool check_members();
   bool settle_type();
   bool settle_surface();
@@ -148,6 +149,13 @@ class CurvesReader {
   CurvesRead& out_;
   bool has_points_ = false;
   std::optional<std::size_t> type_;
+  // Members come in any order: what belongs to some kinds only waits here until the kind is known.
+  std::size_t basis_ = 0;  // of basis_words()
+  UniformBSpline bspline_;
+  FourPoint four_point_;
+  CornerCutting corner_cutting_;
+  CatmullRom catmull_rom_;
+  Nurbs nurbs_;
   ControlPatch surface_;  // what of it has been read
   std::bitset<static_cast<std::size_t>(Part::count)> given_;
 };

@@ -1,6 +1,7 @@
 #include "proto/json/words.h"
 
 #include <array>
+#include <variant>
 
 #include "proto/options.h"
 
@@ -14,9 +15,13 @@ static_assert(kInterpolations.size() == static_cast<std::size_t>(Interpolation::
 constexpr std::array<std::string_view, 3> kWraps = {"nonperiodic", "periodic", "pinned"};
 static_assert(kWraps.size() == static_cast<std::size_t>(CurveWrap::pinned) + 1);
 
-constexpr std::array<std::string_view, 7> kBases = {"bspline",    "fourPoint", "cornerCutting", "bezier",
-                                                    "catmullRom", "hermite",   "nurbs"};
-static_assert(kBases.size() == static_cast<std::size_t>(CurveBasis::nurbs) + 1);
+template <class... Kinds>
+constexpr auto words_of(const std::variant<Kinds...>*) {
+  return std::array<std::string_view, sizeof...(Kinds)>{Kinds::kWord...};
+}
+constexpr auto kKinds = words_of(static_cast<const CurveBasis*>(nullptr));
+// Curves on knots have a type of their own, and come last.
+static_assert(kKinds.back() == Nurbs::kWord);
 
 constexpr std::array<std::string_view, 3> kSpacings = {"uniform", "centripetal", "chordal"};
 static_assert(kSpacings.size() == static_cast<std::size_t>(Spacing::chordal) + 1);
@@ -25,7 +30,7 @@ static_assert(kSpacings.size() == static_cast<std::size_t>(Spacing::chordal) + 1
 
 std::span<const std::string_view> interpolation_words() { return kInterpolations; }
 std::span<const std::string_view> wrap_words() { return kWraps; }
-std::span<const std::string_view> basis_words() { return std::span(kBases).first(kBases.size() - 1); }
+std::span<const std::string_view> basis_words() { return std::span(kKinds).first(kKinds.size() - 1); }
 std::span<const std::string_view> spacing_words() { return kSpacings; }
 
 std::string_view word_of(Interpolation interpolation) {
@@ -41,6 +46,5 @@ std::string_view word_of(FaceVaryingInterpolation interpolation) {
 }
 
 std::string_view word_of(CurveWrap wrap) { return wrap_words()[static_cast<std::size_t>(wrap)]; }
-std::string_view word_of(CurveBasis basis) { return kBases[static_cast<std::size_t>(basis)]; }
 
 }  // namespace subdivd::proto::json

@@ -13,13 +13,12 @@ namespace subdivd::proto::json {
 // the order of the enumerations; the others stand in the table of options.
 std::span<const std::string_view> interpolation_words();
 std::span<const std::string_view> wrap_words();
-std::span<const std::string_view> basis_words();
+std::span<const std::string_view> basis_words();  // of the kinds that `basis` names, in their order
 std::span<const std::string_view> spacing_words();
 
 std::string_view word_of(Interpolation interpolation);
 std::string_view word_of(BoundaryInterpolation interpolation);
 std::string_view word_of(FaceVaryingInterpolation interpolation);
 std::string_view word_of(CurveWrap wrap);
-std::string_view word_of(CurveBasis basis);  // "nurbs" for curves on knots
 
 }  // namespace subdivd::proto::json

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "core/base/overloaded.h"
 #include "proto/json/json.h"
 #include "proto/json/text_writer.h"
 #include "proto/json/words.h"
@@ -123,12 +124,12 @@ class AnswerWriter {
     array(chosen(curves.points, curves.limit_points), "points", curves.width, form, i, "curves");
     text_.key("curveVertexCounts");
     text_.indices(curves.vertex_counts, 1, ArrayForm::flat);
-    if (curves.basis == CurveBasis::nurbs) {
+    if (const Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis)) {
       text_.key("order");
-      text_.indices(curves.orders, 1, ArrayForm::flat);
-      array(std::span<const double>(curves.knots), "knots", 1, ArrayForm::flat, i, "curves");
-      if (!curves.weights.empty())
-        array(std::span<const double>(curves.weights), "pointWeights", 1, ArrayForm::flat, i, "curves");
+      text_.indices(nurbs->orders, 1, ArrayForm::flat);
+      array(std::span<const double>(nurbs->knots), "knots", 1, ArrayForm::flat, i, "curves");
+      if (!nurbs->weights.empty())
+        array(std::span<const double>(nurbs->weights), "pointWeights", 1, ArrayForm::flat, i, "curves");
     }
     if (!curves.tangents.empty())
       array(std::exchange(curves.tangents, {}), "tangents", curves.width, form, i, "curves");
@@ -136,27 +137,32 @@ class AnswerWriter {
 
   // What makes the points a curve, in words that a request takes.
   void write_kind(const RefinedCurves<Real>& curves) {
-    switch (curves.basis) {
-      case CurveBasis::nurbs:
-        return word("type", "nurbs");
-      case CurveBasis::bspline:
-        if (curves.degree == 3 || curves.degree == 1) word("type", curves.degree == 1 ? "linear" : "cubic");
-        break;
-      case CurveBasis::bezier:
-      case CurveBasis::catmull_rom:
-      case CurveBasis::hermite:
-        word("type", "cubic");
-        break;
-      case CurveBasis::four_point:
-      case CurveBasis::corner_cutting:
-        break;
-    }
+    const std::string_view type = type_of(curves.basis);
+    if (!type.empty()) word("type", type);
+    if (family_of(curves.basis) == CurveFamily::on_knots) return;
     word("basis", word_of(curves.basis));
     word("wrap", word_of(curves.wrap));
-    if (curves.basis == CurveBasis::bspline && curves.degree != 3 && curves.degree != 1)
-      number("degree", curves.degree);
-    if (curves.basis == CurveBasis::four_point) number("tension", curves.tension);
-    if (curves.basis == CurveBasis::corner_cutting) number("ratio", curves.ratio);
+    std::visit(Overloaded{[&](const UniformBSpline& kind) {
+                            if (type.empty()) number("degree", kind.degree);
+                          },
+                          [&](const FourPoint& kind) { number("tension", kind.tension); },
+                          [&](const CornerCutting& kind) { number("ratio", kind.ratio); },
+                          [](const PiecewiseKind auto&) {},  // they come back as Bezier curves
+                          [](const Nurbs&) {}},
+               curves.basis);
+  }
+
+  // Empty where the basis and its parameters say all.
+  static std::string_view type_of(const CurveBasis& basis) {
+    using Word = std::string_view;
+    return std::visit(Overloaded{[](const UniformBSpline& kind) -> Word {
+                                   return kind.degree == 1 ? "linear" : kind.degree == 3 ? "cubic" : "";
+                                 },
+                                 [](const FourPoint&) -> Word { return ""; },
+                                 [](const CornerCutting&) -> Word { return ""; },
+                                 [](const PiecewiseKind auto&) -> Word { return "cubic"; },
+                                 [](const Nurbs&) -> Word { return "nurbs"; }},
+                      basis);
   }
 
   void number(std::string_view name, double value) {

@@ -298,13 +298,7 @@ Result<RefineAnswer<float>> in_single(RefineAnswer<double> answer, const Budget&
       to.width = from.width;
       to.vertex_counts = std::move(from.vertex_counts);
       to.wrap = from.wrap;
-      to.basis = from.basis;
-      to.degree = from.degree;
-      to.tension = from.tension;
-      to.ratio = from.ratio;
-      to.orders = std::move(from.orders);
-      to.knots = std::move(from.knots);
-      to.weights = std::move(from.weights);
+      to.basis = std::move(from.basis);
       to.points.reserve(from.points.size());
       for (const double value : from.points) {
         pace.spend(1);

@@ -21,25 +21,6 @@ namespace subdivd::server::tasks {
 inline Count most_polyline_points(Count points) { return std::max(Count{1} << 16, 64 * points); }
 inline Count most_length_pieces(Count points) { return std::max(LengthOptions{}.max_pieces, 16 * points); }
 
-inline Count degree_of(const ControlCurves& curves, Count curve) {
-  if (curves.basis == CurveBasis::bspline) return curves.degree;
-  if (curves.basis != CurveBasis::nurbs || curves.orders.empty()) return 3;  // corner cutting's is 2
-  return curves.orders[curves.orders.size() == 1 ? 0 : curve] - Count{1};
-}
-
-// Bytes while a curve is made into a spline, and while that is brought into coordinates of its own: copies of
-// its points and knots, which grow. Curves that are closed or start at their first point get up to a degree
-// more of points.
-inline Count spline_bytes(const ControlCurves& curves, Count curve) {
-  constexpr Count kCopies = 10;
-  const Count degree = degree_of(curves, curve), width = curves.width;
-  const Count points = curves.points_of_curve(curve) + 2 * (degree + 1);
-  const bool by_pieces = curves.basis == CurveBasis::bezier || curves.basis == CurveBasis::catmull_rom ||
-                         curves.basis == CurveBasis::hermite;
-  const Count numbers = points * (width + 2) * (by_pieces ? 3 : 1);
-  return numbers * kCopies * sizeof(double);
-}
-
 // An error about something beside the curves: its place is a member of the body. What was stopped has none.
 inline Error at_member(Error error, const char* member, std::optional<std::uint64_t> index = {}) {
   if (is_stop(error)) return error;

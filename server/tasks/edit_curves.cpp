@@ -128,17 +128,17 @@ Result<std::vector<double>> points_in(CurveForm form, const Spline& spline, doub
 CurveBasis basis_of(CurveForm form) {
   switch (form) {
     case CurveForm::bezier:
-      return CurveBasis::bezier;
+      return Bezier{};
     case CurveForm::bspline:
-      return CurveBasis::bspline;
+      return UniformBSpline{};
     case CurveForm::catmull_rom:
-      return CurveBasis::catmull_rom;
+      return CatmullRom{};
     case CurveForm::hermite:
-      return CurveBasis::hermite;
+      return Hermite{};
     case CurveForm::nurbs:
       break;
   }
-  return CurveBasis::nurbs;
+  return Nurbs{};
 }
 
 Result<Approximation> edited(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory,
@@ -157,10 +157,11 @@ void append(const Spline& spline, const std::vector<double>& points, RefinedCurv
             const Pace& pace) {
   curves.vertex_counts.push_back(static_cast<Index>(points.size() / curves.width));
   pace.append(points, curves.points);
-  if (curves.basis != CurveBasis::nurbs) return;
-  curves.orders.push_back(spline.degree + 1);
-  pace.append(spline.knots, curves.knots);
-  pace.append(weights(spline, pace), curves.weights);
+  Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  if (nurbs == nullptr) return;
+  nurbs->orders.push_back(spline.degree + 1);
+  pace.append(spline.knots, nurbs->knots);
+  pace.append(weights(spline, pace), nurbs->weights);
 }
 
 // Finds a place in the answer for the edited curves: each in its set, or all joined into one.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <variant>
 
 #include "core/base/pace.h"
 #include "core/curves/piecewise.h"
@@ -69,7 +70,8 @@ void for_each_edited(const CurveRequest& request, const Pace& pace, F&& f) {
 }
 
 bool is_rational(const ControlCurves& curves) {
-  return curves.basis == CurveBasis::nurbs && !curves.weights.empty();
+  const Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  return nurbs != nullptr && !nurbs->weights.empty();
 }
 
 // All curves as one, lifted to the highest degree among them.

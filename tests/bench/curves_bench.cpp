@@ -39,7 +39,7 @@ std::vector<double> wave(Count points, Index width) {
 
 void refine_beside_memcpy(benchmark::State& state, Index degree) {
   ControlCurves curves;
-  curves.degree = degree;
+  curves.basis = UniformBSpline{degree};
   curves.points = wave(static_cast<Count>(state.range(0)), 3);
   const CurveOptions options{.level = static_cast<Index>(state.range(1))};
   const Buffer<double> like = refine<double>(curves, options, {})->points;
@@ -145,7 +145,7 @@ void refine_surface_beside_memcpy(benchmark::State& state, Index degree, bool no
 // Point and derivative at parameters of 52 bits.
 void evaluate_four_point(benchmark::State& state) {
   ControlCurves curves;
-  curves.basis = CurveBasis::four_point;
+  curves.basis = FourPoint{};
   curves.points = wave(1000, 3);
   const SubdividedCurve curve = *subdivided_curve(curves, 0, {});
   std::vector<double> rows(6);

@@ -505,9 +505,9 @@ TEST(CurveTasks, join_one_after_the_other_is_the_same_to_the_bit) {
   for (std::size_t i = 1; i < curves.size(); ++i)
     expected = join(*expected, *spline_of(request->curves.curves[i], 0, {}), 100, {});
   ASSERT_TRUE(expected.ok()) << expected.error().message;
-  EXPECT_TRUE(std::ranges::equal(all->answer.curves[0].knots, expected->knots));
+  EXPECT_TRUE(std::ranges::equal(std::get<Nurbs>(all->answer.curves[0].basis).knots, expected->knots));
   EXPECT_TRUE(std::ranges::equal(all->answer.curves[0].points, projected(*expected)));
-  EXPECT_TRUE(std::ranges::equal(all->answer.curves[0].weights, weights(*expected)));
+  EXPECT_TRUE(std::ranges::equal(std::get<Nurbs>(all->answer.curves[0].basis).weights, weights(*expected)));
 }
 
 TEST(CurveTasks, refuse_a_convergence_of_more_points_than_anyone_waits_for) {

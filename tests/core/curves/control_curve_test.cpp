@@ -107,37 +107,37 @@ TEST(ControlCurve, accepts_the_fewest_points_of_every_basis_and_no_fewer) {
 TEST(ControlCurve, the_fewest_points_are_those_of_the_table) {
   ControlCurves curves;
   curves.wrap = CurveWrap::nonperiodic;
-  for (curves.degree = 1; curves.degree <= kMaxCurveDegree; ++curves.degree)
-    EXPECT_EQ(least_points(curves), curves.degree + 1);
+  for (Index degree = 1; degree <= kMaxCurveDegree; ++degree) {
+    curves.basis = UniformBSpline{degree};
+    EXPECT_EQ(least_points(curves), degree + 1);
+  }
   curves.wrap = CurveWrap::pinned;
-  for (curves.degree = 1; curves.degree <= kMaxCurveDegree; ++curves.degree)
-    EXPECT_EQ(least_points(curves), curves.degree % 2 == 0 ? 3u : 2u);
+  for (Index degree = 1; degree <= kMaxCurveDegree; ++degree) {
+    curves.basis = UniformBSpline{degree};
+    EXPECT_EQ(least_points(curves), degree % 2 == 0 ? 3u : 2u);
+  }
 }
 
 // The place names the one parameter that the basis has.
-TEST(ControlCurve, refuses_bad_parameters_of_the_basis_in_use_by_name) {
+TEST(ControlCurve, refuses_bad_parameters_by_name) {
   const auto place_of = [](const ControlCurves& curves) {
     const auto checked = curves.check();
     return checked ? Path{} : checked.error().where;
   };
   for (const Index degree : {0u, kMaxCurveDegree + 1, kNoIndex}) {
     auto curves = random_curve(CurveWrap::periodic, 40);
-    curves.degree = degree;
+    curves.basis = UniformBSpline{degree};
     EXPECT_EQ(place_of(curves), Path{std::string("degree")}) << degree;
     EXPECT_EQ(code_of(curves), ErrorCode::out_of_range);
   }
   for (const double tension : {-0.001, 0.193, 1e300, std::nan("")}) {
     auto curves = random_curve(CurveWrap::periodic, 40);
-    curves.tension = tension;
-    EXPECT_TRUE(curves.check().ok());
-    curves.basis = CurveBasis::four_point;
+    curves.basis = FourPoint{tension};
     EXPECT_EQ(place_of(curves), Path{std::string("tension")}) << tension;
   }
   for (const double ratio : {0.0, 0.5, -1.0, std::numeric_limits<double>::infinity()}) {
     auto curves = random_curve(CurveWrap::periodic, 40);
-    curves.ratio = ratio;
-    EXPECT_TRUE(curves.check().ok());
-    curves.basis = CurveBasis::corner_cutting;
+    curves.basis = CornerCutting{ratio};
     EXPECT_EQ(place_of(curves), Path{std::string("ratio")}) << ratio;
     EXPECT_EQ(code_of(curves), std::isfinite(ratio) ? ErrorCode::out_of_range : ErrorCode::not_finite);
   }

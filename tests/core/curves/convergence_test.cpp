@@ -13,7 +13,7 @@ namespace {
 
 ControlCurves rule_of(Index degree, CurveWrap wrap) {
   ControlCurves rule;
-  rule.degree = degree;
+  rule.basis = UniformBSpline{degree};
   rule.wrap = wrap;
   return rule;
 }
@@ -149,7 +149,7 @@ TEST(Convergence, refuses_what_it_cannot_measure) {
   const std::atomic<bool> gone = true;
   dead.cancelled = &gone;
   EXPECT_EQ(code(curves, 0, 3, dead), ErrorCode::cancelled);
-  curves.basis = CurveBasis::four_point;
+  curves.basis = FourPoint{};
   EXPECT_EQ(code(curves, 0, 0, Budget{}), ErrorCode::unsupported);
 }
 

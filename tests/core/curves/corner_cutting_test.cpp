@@ -12,8 +12,7 @@ namespace {
 
 ControlCurves cut(CurveWrap wrap, double ratio, Index points, Index width = 2) {
   auto curves = random_curve(wrap, points, width);
-  curves.basis = CurveBasis::corner_cutting;
-  curves.ratio = ratio;
+  curves.basis = CornerCutting{ratio};
   return curves;
 }
 
@@ -30,8 +29,7 @@ TEST(CornerCutting, a_quarter_is_degree_two_to_the_bit) {
     for (const Index points : {3u, 4u, 9u}) {
       const auto curves = cut(wrap, 0.25, points);
       auto quadratic = curves;
-      quadratic.basis = CurveBasis::bspline;
-      quadratic.degree = 2;
+      quadratic.basis = UniformBSpline{2};
       const auto a = refined(curves, 4), b = refined(quadratic, 4);
       EXPECT_EQ(a.points, b.points);
       EXPECT_EQ(a.limit_points, b.limit_points);

@@ -1,4 +1,5 @@
 #include "core/curves/kernels/curve_kernels.h"
+#include "core/base/overloaded.h"
 
 #include <gtest/gtest.h>
 
@@ -28,11 +29,25 @@ std::vector<int> instruction_sets() {
 }
 
 template <class Real>
-kernels::SplitPoints<Real> kernel_of(const ControlCurves& rule) {
+struct Kernel {
+  kernels::SplitPoints<Real> split;
+  double parameter;
+};
+
+template <class Real>
+Kernel<Real> kernel_of(const ControlCurves& rule) {
   const auto& all = kernels::curve_kernels<Real>();
-  if (rule.basis == CurveBasis::four_point) return all.four_point[rule.width - 1];
-  if (rule.basis == CurveBasis::corner_cutting) return all.corner_cutting[rule.width - 1];
-  return all.lane_riesenfeld[rule.degree - 1][rule.width - 1];
+  const Index w = rule.width - 1;
+  const auto kernel = Overloaded{[&](const UniformBSpline& kind) {
+                                   return Kernel<Real>{all.lane_riesenfeld[kind.degree - 1][w], 0};
+                                 },
+                                 [&](const FourPoint& kind) {
+                                   return Kernel<Real>{all.four_point[w], kind.tension};
+                                 },
+                                 [&](const CornerCutting& kind) {
+                                   return Kernel<Real>{all.corner_cutting[w], kind.ratio};
+                                 }};
+  return visit_scheme(rule.basis, kernel);
 }
 
 // The plain way: each child by itself, then in turn.
@@ -40,12 +55,9 @@ template <class Real>
 std::vector<Real> in_turn(const ControlCurves& rule, const Real* self, Count points) {
   const Count width = rule.width;
   std::vector<Real> first(points * width), second(points * width), both;
-  if (rule.basis == CurveBasis::four_point)
-    four_point_children(rule.tension, rule.width, self, points * width, first.data(), second.data());
-  else if (rule.basis == CurveBasis::corner_cutting)
-    corner_cutting_children(rule.ratio, rule.width, self, points * width, first.data(), second.data());
-  else
-    lane_riesenfeld_children(rule.degree, rule.width, self, points * width, first.data(), second.data());
+  visit_scheme(rule.basis, [&](const auto& kind) {
+    kind.children(rule.width, self, points * width, first.data(), second.data());
+  });
   for (Count i = 0; i < points; ++i)
     for (const std::vector<Real>* child : {&first, &second})
       both.insert(both.end(), child->begin() + static_cast<std::ptrdiff_t>(i * width),
@@ -64,8 +76,8 @@ void expect_plain_children(const ControlCurves& rule, Count points) {
   std::vector<Real> expected = in_turn(rule, self, points);
   expected.insert(expected.end(), 8, Real(7));  // what lies behind stays
   std::vector<Real> children(expected.size(), Real(7));
-  const bool tension = rule.basis == CurveBasis::four_point;
-  kernel_of<Real>(rule)(tension ? rule.tension : rule.ratio, self, points, children.data());
+  const Kernel<Real> kernel = kernel_of<Real>(rule);
+  kernel.split(kernel.parameter, self, points, children.data());
   ASSERT_EQ(children, expected) << name_of_rule(rule) << " width " << rule.width << " points " << points;
 }
 
@@ -73,7 +85,9 @@ TEST(CurveKernels, children_are_the_plain_ones_to_the_bit) {
   for (const int set : instruction_sets()) {
     const WithInstructionSet with(set);
     for (ControlCurves rule : all_rules()) {
-      if (rule.wrap != CurveWrap::pinned || rule.degree > kernels::kKernelDegree) continue;
+      const UniformBSpline* bspline = std::get_if<UniformBSpline>(&rule.basis);
+      if (rule.wrap != CurveWrap::pinned) continue;
+      if (bspline != nullptr && bspline->degree > kernels::kKernelDegree) continue;
       for (rule.width = 1; rule.width <= kernels::kKernelWidth; ++rule.width)
         for (const Count points : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 21u}) {
           expect_plain_children<double>(rule, points);

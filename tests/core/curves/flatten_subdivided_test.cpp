@@ -12,12 +12,10 @@
 namespace subdivd::testing {
 namespace {
 
-ControlCurves curve_of_scheme(CurveBasis basis, CurveWrap wrap, double parameter, Index more,
-                              Index width = 2) {
+ControlCurves curve_of_scheme(const CurveBasis& basis, CurveWrap wrap, Index more, Index width = 2) {
   ControlCurves rule;
   rule.basis = basis;
   rule.wrap = wrap;
-  (basis == CurveBasis::four_point ? rule.tension : rule.ratio) = parameter;
   return random_curve(rule, more, width);
 }
 
@@ -26,9 +24,9 @@ std::vector<ControlCurves> all_curves() {
   for (const CurveWrap wrap : kAllWraps)
     for (const Index more : {0u, 4u}) {
       for (const double tension : {0.0, 1.0 / 16, 0.12, 0.19})
-        all.push_back(curve_of_scheme(CurveBasis::four_point, wrap, tension, more));
+        all.push_back(curve_of_scheme(FourPoint{tension}, wrap, more));
       for (const double ratio : {0.05, 0.25, 1.0 / 3, 0.45})
-        all.push_back(curve_of_scheme(CurveBasis::corner_cutting, wrap, ratio, more, 3));
+        all.push_back(curve_of_scheme(CornerCutting{ratio}, wrap, more, 3));
     }
   return all;
 }
@@ -80,8 +78,8 @@ TEST(FlattenSubdivided, never_exceeds_its_tolerance_and_comes_near_it) {
       const double worst = worst_distance(curves, *polyline, 5);
       ASSERT_LE(worst, tolerance) << name_of_rule(curves);
       // The polygon, and the straight line between two points.
-      const bool exact =
-          curves.basis == CurveBasis::four_point && (curves.tension == 0 || curves.point_count() == 2);
+      const FourPoint* four_point = std::get_if<FourPoint>(&curves.basis);
+      const bool exact = four_point != nullptr && (four_point->tension == 0 || curves.point_count() == 2);
       ASSERT_TRUE(exact || tolerance == 0.1 || worst > tolerance / 200) << name_of_rule(curves);
     }
 }
@@ -100,9 +98,8 @@ TEST(FlattenSubdivided, corners_are_points_of_the_curve) {
 
 // A smooth curve is off a chord by the square of its length.
 TEST(FlattenSubdivided, a_sixteenth_of_the_tolerance_takes_some_four_times_the_corners) {
-  for (const ControlCurves& curves :
-       {curve_of_scheme(CurveBasis::four_point, CurveWrap::periodic, 1.0 / 16, 4),
-        curve_of_scheme(CurveBasis::corner_cutting, CurveWrap::periodic, 0.25, 4)}) {
+  for (const ControlCurves& curves : {curve_of_scheme(FourPoint{1.0 / 16}, CurveWrap::periodic, 4),
+                                      curve_of_scheme(CornerCutting{0.25}, CurveWrap::periodic, 4)}) {
     const auto coarse = flat(curves, 1e-4), fine = flat(curves, 1e-4 / 256);
     ASSERT_TRUE(coarse.ok() && fine.ok());
     const double growth = double(fine->parameters.size()) / double(coarse->parameters.size());
@@ -113,7 +110,7 @@ TEST(FlattenSubdivided, a_sixteenth_of_the_tolerance_takes_some_four_times_the_c
 
 TEST(FlattenSubdivided, control_points_of_four_point_are_corners_to_the_bit) {
   for (const CurveWrap wrap : kAllWraps) {
-    ControlCurves curves = curve_of_scheme(CurveBasis::four_point, wrap, 0.1, 3);
+    ControlCurves curves = curve_of_scheme(FourPoint{0.1}, wrap, 3);
     for (double& x : curves.points) x = 1e3 + x / 3;
     curves.points[4] = 1e-5 / 3;  // loses bits on the way to the curve's centre and back
     const auto polyline = flat(curves, 1e-3);
@@ -128,7 +125,7 @@ TEST(FlattenSubdivided, control_points_of_four_point_are_corners_to_the_bit) {
 }
 
 TEST(FlattenSubdivided, tension_zero_is_the_control_polygon_whatever_the_tolerance) {
-  const auto curves = curve_of_scheme(CurveBasis::four_point, CurveWrap::pinned, 0, 5);
+  const auto curves = curve_of_scheme(FourPoint{0}, CurveWrap::pinned, 5);
   const auto polyline = flat(curves, 1e-300);
   ASSERT_TRUE(polyline.ok());
   EXPECT_EQ(polyline->points, curves.points);
@@ -145,7 +142,7 @@ TEST(FlattenSubdivided, equal_points_are_as_many_corners_as_cells_have_ends) {
 }
 
 TEST(FlattenSubdivided, a_pinned_curve_keeps_its_ends_to_the_bit) {
-  ControlCurves curves = curve_of_scheme(CurveBasis::corner_cutting, CurveWrap::pinned, 0.3, 4);
+  ControlCurves curves = curve_of_scheme(CornerCutting{0.3}, CurveWrap::pinned, 4);
   for (double& x : curves.points) x = 1e3 + x / 3;
   curves.points.front() = curves.points.back() = 1e-5 / 3;
   const auto polyline = flat(curves, 1e-3);
@@ -158,7 +155,7 @@ TEST(FlattenSubdivided, a_pinned_curve_keeps_its_ends_to_the_bit) {
 
 // Interpolating curves leave the box of their control points; so must corners.
 TEST(FlattenSubdivided, corners_may_lie_outside_the_control_points) {
-  ControlCurves curves = curve_of_scheme(CurveBasis::four_point, CurveWrap::pinned, 1.0 / 16, 2, 1);
+  ControlCurves curves = curve_of_scheme(FourPoint{1.0 / 16}, CurveWrap::pinned, 2, 1);
   curves.points = {0, 1, 1, 0};
   const auto polyline = flat(curves, 1e-4);
   ASSERT_TRUE(polyline.ok());
@@ -185,7 +182,7 @@ ErrorCode refusal_of(const ControlCurves& curves, const FlattenOptions& options,
 }
 
 TEST(FlattenSubdivided, refuses_tolerances_that_rounding_does_not_allow) {
-  const auto curves = curve_of_scheme(CurveBasis::four_point, CurveWrap::pinned, 1.0 / 16, 3);
+  const auto curves = curve_of_scheme(FourPoint{1.0 / 16}, CurveWrap::pinned, 3);
   for (const double tolerance : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-16, 5e-15})
     EXPECT_EQ(refusal_of(curves, {.tolerance = tolerance}), ErrorCode::out_of_range) << tolerance;
   ControlCurves far = curves;
@@ -195,7 +192,7 @@ TEST(FlattenSubdivided, refuses_tolerances_that_rounding_does_not_allow) {
 }
 
 TEST(FlattenSubdivided, refuses_more_corners_than_allowed) {
-  const auto curves = curve_of_scheme(CurveBasis::corner_cutting, CurveWrap::periodic, 0.25, 4);
+  const auto curves = curve_of_scheme(CornerCutting{0.25}, CurveWrap::periodic, 4);
   const auto polyline = flat(curves, 1e-3);
   ASSERT_TRUE(polyline.ok());
   const Count corners = polyline->parameters.size();
@@ -211,7 +208,7 @@ TEST(FlattenSubdivided, stops_when_the_caller_is_gone) {
   const std::atomic<bool> gone{true};
   Budget budget;
   budget.cancelled = &gone;
-  const auto curves = curve_of_scheme(CurveBasis::four_point, CurveWrap::pinned, 0.1, 300);
+  const auto curves = curve_of_scheme(FourPoint{0.1}, CurveWrap::pinned, 300);
   EXPECT_EQ(refusal_of(curves, {.tolerance = 1e-6}, budget), ErrorCode::cancelled);
 }
 
@@ -219,12 +216,12 @@ TEST(FlattenSubdivided, stops_when_the_caller_is_gone) {
 // for ever.
 TEST(FlattenSubdivided, extreme_ratios_and_sizes_come_to_an_end) {
   for (const double ratio : {1e-6, 0.499}) {
-    const auto curves = curve_of_scheme(CurveBasis::corner_cutting, CurveWrap::pinned, ratio, 2);
+    const auto curves = curve_of_scheme(CornerCutting{ratio}, CurveWrap::pinned, 2);
     const auto polyline = flatten(only(curves), {1e-3, 20000}, {});
     EXPECT_TRUE(!polyline || worst_distance(curves, *polyline, 3) <= 1e-3);
   }
   constexpr double kMax = std::numeric_limits<double>::max();
-  ControlCurves large = curve_of_scheme(CurveBasis::four_point, CurveWrap::pinned, 0.1, 2, 1);
+  ControlCurves large = curve_of_scheme(FourPoint{0.1}, CurveWrap::pinned, 2, 1);
   large.points = {-kMax, kMax, kMax, -kMax};
   EXPECT_EQ(refusal_of(large, {.tolerance = kMax / 100}), ErrorCode::out_of_range);
 }

@@ -13,9 +13,8 @@ namespace {
 
 ControlCurves four_point(CurveWrap wrap, double tension, std::vector<double> points) {
   ControlCurves curves;
-  curves.basis = CurveBasis::four_point;
+  curves.basis = FourPoint{tension};
   curves.wrap = wrap;
-  curves.tension = tension;
   curves.width = 1;
   curves.points = std::move(points);
   return curves;
@@ -41,7 +40,7 @@ TEST(FourPoint, one_step_is_the_mask_by_hand) {
 TEST(FourPoint, control_points_stay_and_are_their_own_limits) {
   for (const CurveWrap wrap : {CurveWrap::pinned, CurveWrap::periodic}) {
     auto curves = random_curve(wrap, 7, 2);
-    curves.basis = CurveBasis::four_point;
+    curves.basis = FourPoint{};
     const auto fine = refined(curves, 4);
     EXPECT_EQ(fine.limit_points, fine.points);
     for (Count i = 0; i < 7; ++i)
@@ -71,8 +70,7 @@ TEST(FourPoint, a_sixteenth_reproduces_cubics_and_their_derivatives) {
 TEST(FourPoint, tangents_are_the_limits_of_difference_quotients) {
   for (const double tension : {0.02, 1.0 / 16, 0.1}) {
     auto curves = random_curve(CurveWrap::periodic, 6, 1);
-    curves.basis = CurveBasis::four_point;
-    curves.tension = tension;
+    curves.basis = FourPoint{tension};
     const auto tangents = refined(curves, 0).tangents;
     const Index level = 18;
     const auto fine = refined(curves, level).points;
@@ -90,8 +88,7 @@ TEST(FourPoint, the_tangent_is_the_left_eigenvector_for_one_half) {
   for (const double tension : {0.0, 1.0 / 16, 0.15, 0.1927}) {
     if (tension == 0) continue;  // the polygon has kinks; its tangents are means
     auto curves = random_curve(CurveWrap::periodic, 8, 1);
-    curves.basis = CurveBasis::four_point;
-    curves.tension = tension;
+    curves.basis = FourPoint{tension};
     const auto coarse = refined(curves, 0).tangents, fine = refined(curves, 1).tangents;
     for (Count i = 0; i < 8; ++i) EXPECT_NEAR(fine[2 * i], coarse[i], 1e-13 / (1 - 4 * tension));
   }

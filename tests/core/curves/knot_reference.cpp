@@ -14,16 +14,22 @@ long double basis(long double knot, int degree, long double t) {
          (knot + degree + 1 - t) / degree * basis(knot + 1, degree - 1, t);
 }
 
+// 3 of other kinds than B-splines, which do not ask for it.
+int degree_of(const ControlCurves& curves) {
+  const UniformBSpline* bspline = std::get_if<UniformBSpline>(&curves.basis);
+  return bspline == nullptr ? 3 : static_cast<int>(bspline->degree);
+}
+
 bool dual(const ControlCurves& curves) {
-  return curves.basis == CurveBasis::corner_cutting ||
-         (curves.basis == CurveBasis::bspline && curves.degree % 2 == 0);
+  return std::holds_alternative<CornerCutting>(curves.basis) ||
+         (std::holds_alternative<UniformBSpline>(curves.basis) && degree_of(curves) % 2 == 0);
 }
 
 template <class Weight>
 std::vector<double> sum_of_all(const ControlCurves& curves, Weight&& weight) {
   const bool inner = dual(curves) && curves.wrap == CurveWrap::pinned;
   const int n = static_cast<int>(curves.point_count()) - (inner ? 2 : 0);
-  const int more = curves.wrap == CurveWrap::nonperiodic ? 0 : static_cast<int>(curves.degree) + 1;
+  const int more = curves.wrap == CurveWrap::nonperiodic ? 0 : degree_of(curves) + 1;
   std::vector<double> sums;
   for (Index k = 0; k < curves.width; ++k) {
     long double sum = 0;
@@ -44,14 +50,14 @@ template <class Points>
 double child(const ControlCurves& curves, int m, Points&& c) {
   const int i = m >= 0 ? m / 2 : -((1 - m) / 2);
   const bool second = m != 2 * i;
-  if (curves.basis == CurveBasis::four_point) {
-    const double w = curves.tension;
+  if (std::holds_alternative<FourPoint>(curves.basis)) {
+    const double w = std::get<FourPoint>(curves.basis).tension;
     if (!second) return c(i);
     return (c(i) * 0.5 + c(i + 1) * 0.5) + ((c(i) * w - c(i - 1) * w) + (c(i + 1) * w - c(i + 2) * w));
   }
-  if (curves.basis == CurveBasis::corner_cutting)
-    return c(second ? i + 1 : i - 1) * curves.ratio + c(i) * (1 - curves.ratio);
-  const int p = static_cast<int>(curves.degree), h = (p + 1) / 2;
+  if (const CornerCutting* cutting = std::get_if<CornerCutting>(&curves.basis))
+    return c(second ? i + 1 : i - 1) * cutting->ratio + c(i) * (1 - cutting->ratio);
+  const int p = degree_of(curves), h = (p + 1) / 2;
   const auto weight = [&](int parent) {
     const int k = m - 2 * parent + h;
     return k < 0 || k > p + 1 ? 0 : binomial(p + 1, k) / std::ldexp(1.0, p);
@@ -88,12 +94,12 @@ double continued(const ControlCurves& curves, int i, Index k) {
 }
 
 std::vector<double> all_basis_point(const ControlCurves& curves, double t) {
-  const int p = static_cast<int>(curves.degree);
+  const int p = degree_of(curves);
   return sum_of_all(curves, [&](long double peak) { return basis(peak - (p + 1) / 2.0L, p, t); });
 }
 
 std::vector<double> all_basis_slope(const ControlCurves& curves, double t) {
-  const int p = static_cast<int>(curves.degree);
+  const int p = degree_of(curves);
   return sum_of_all(curves, [&](long double peak) {
     const long double knot = peak - (p + 1) / 2.0L;
     return basis(knot, p - 1, t) - basis(knot + 1, p - 1, t);
@@ -103,10 +109,12 @@ std::vector<double> all_basis_slope(const ControlCurves& curves, double t) {
 std::vector<double> plain_step(const ControlCurves& curves) {
   const bool pinned = curves.wrap == CurveWrap::pinned, inner = pinned && dual(curves);
   const int total = static_cast<int>(curves.point_count());
-  const int p = static_cast<int>(curves.degree);
+  const int p = degree_of(curves);
   int first = 0, last = 2 * total - 1;
   if (curves.wrap == CurveWrap::nonperiodic) {
-    const int lost = curves.basis == CurveBasis::bspline ? p : curves.basis == CurveBasis::four_point ? 5 : 2;
+    const int lost = std::holds_alternative<UniformBSpline>(curves.basis) ? p
+                     : std::holds_alternative<FourPoint>(curves.basis)    ? 5
+                                                                          : 2;
     first = lost / 2;
     last = first + 2 * total - lost - 1;
   } else if (inner) {

@@ -13,7 +13,7 @@ namespace {
 
 ControlCurves rule_of(Index degree, CurveWrap wrap) {
   ControlCurves rule;
-  rule.degree = degree;
+  rule.basis = UniformBSpline{degree};
   rule.wrap = wrap;
   return rule;
 }
@@ -43,22 +43,23 @@ TEST(LaneRiesenfeld, even_and_odd_weights_each_sum_to_one) {
 
 // Eulerian numbers over p!.   [OEIS A008292]
 TEST(LaneRiesenfeld, odd_limit_masks_are_eulerian_numbers) {
-  EXPECT_EQ(lane_riesenfeld_limits(1).values, (std::vector<double>{1}));
-  EXPECT_EQ(lane_riesenfeld_limits(3).values, (std::vector<double>{4.0 / 6, 1.0 / 6}));
-  EXPECT_EQ(lane_riesenfeld_limits(5).values, (std::vector<double>{66.0 / 120, 26.0 / 120, 1.0 / 120}));
-  EXPECT_EQ(lane_riesenfeld_limits(7).values,
+  EXPECT_EQ(UniformBSpline{1}.limit_masks().values, (std::vector<double>{1}));
+  EXPECT_EQ(UniformBSpline{3}.limit_masks().values, (std::vector<double>{4.0 / 6, 1.0 / 6}));
+  EXPECT_EQ(UniformBSpline{5}.limit_masks().values, (std::vector<double>{66.0 / 120, 26.0 / 120, 1.0 / 120}));
+  EXPECT_EQ(UniformBSpline{7}.limit_masks().values,
             (std::vector<double>{2416.0 / 5040, 1191.0 / 5040, 120.0 / 5040, 1.0 / 5040}));
 }
 
 TEST(LaneRiesenfeld, even_limit_masks_are_values_at_the_middle_of_spans) {
-  EXPECT_EQ(lane_riesenfeld_limits(2).values, (std::vector<double>{6.0 / 8, 1.0 / 8}));
-  EXPECT_EQ(lane_riesenfeld_limits(4).values, (std::vector<double>{230.0 / 384, 76.0 / 384, 1.0 / 384}));
+  EXPECT_EQ(UniformBSpline{2}.limit_masks().values, (std::vector<double>{6.0 / 8, 1.0 / 8}));
+  EXPECT_EQ(UniformBSpline{4}.limit_masks().values,
+            (std::vector<double>{230.0 / 384, 76.0 / 384, 1.0 / 384}));
 }
 
 // The limit mask is the left eigenvector of the step for 1: refining unit vectors of odd degrees shows it.
 TEST(LaneRiesenfeld, odd_limit_masks_reproduce_themselves) {
   for (Index degree = 1; degree <= kMaxCurveDegree; degree += 2) {
-    const auto values = lane_riesenfeld_limits(degree).values;
+    const auto values = UniformBSpline{degree}.limit_masks().values;
     const auto mask = lane_riesenfeld_mask(degree);
     const int h = static_cast<int>(degree + 1) / 2, reach = static_cast<int>(values.size()) - 1;
     const auto value = [&](int k) {
@@ -75,7 +76,7 @@ TEST(LaneRiesenfeld, odd_limit_masks_reproduce_themselves) {
 
 TEST(LaneRiesenfeld, limits_sum_to_one_and_slopes_reproduce_the_parameter) {
   for (Index degree = 1; degree <= kMaxCurveDegree; ++degree) {
-    const LimitMasks masks = lane_riesenfeld_limits(degree);
+    const LimitMasks masks = UniformBSpline{degree}.limit_masks();
     double sum = masks.values[0], slope = 0, end_slope = 0;
     for (std::size_t k = 1; k < masks.values.size(); ++k) sum += 2 * masks.values[k];
     for (std::size_t k = 1; k < masks.slopes.size(); ++k)

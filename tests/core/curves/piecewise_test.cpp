@@ -27,18 +27,21 @@ ControlCurves curves_of(CurveBasis basis, CurveWrap wrap, Count points) {
   return curves;
 }
 
+Nurbs& nurbs_of(ControlCurves& curves) { return std::get<Nurbs>(curves.basis); }
+
 // Two curves: the circle of nine points and a cubic of five.
 ControlCurves nurbs() {
   const Spline circle = samples::circle();
-  ControlCurves curves = curves_of(CurveBasis::nurbs, CurveWrap::nonperiodic, 0);
+  ControlCurves curves = curves_of(Nurbs{}, CurveWrap::nonperiodic, 0);
   curves.vertex_counts = {9, 5};
-  curves.orders = {3, 4};
+  Nurbs& knots = nurbs_of(curves);
+  knots.orders = {3, 4};
   curves.points = projected(circle);
   for (const double x : some_points(5)) curves.points.push_back(x);
-  curves.weights = weights(circle);
-  curves.weights.insert(curves.weights.end(), 5, 2.0);
-  curves.knots = circle.knots;
-  curves.knots.insert(curves.knots.end(), {0, 0, 0, 0, 1, 2, 2, 2, 2});
+  knots.weights = weights(circle);
+  knots.weights.insert(knots.weights.end(), 5, 2.0);
+  knots.knots = circle.knots;
+  knots.knots.insert(knots.knots.end(), {0, 0, 0, 0, 1, 2, 2, 2, 2});
   return curves;
 }
 
@@ -54,31 +57,27 @@ ControlCurves again(const ControlCurves& curves, const RefinedPiecewise& refined
   next.width = curves.width;
   next.points = refined.points;
   next.vertex_counts = refined.vertex_counts;
-  next.orders = refined.orders;
-  next.knots = refined.knots;
-  next.weights = refined.weights;
   return next;
 }
 
 std::vector<ControlCurves> all_piecewise() {
   std::vector<ControlCurves> all{nurbs()};
   for (const CurveWrap wrap : {CurveWrap::nonperiodic, CurveWrap::periodic, CurveWrap::pinned}) {
-    all.push_back(curves_of(CurveBasis::bezier, wrap, wrap == CurveWrap::periodic ? 9 : 10));
-    all.push_back(curves_of(CurveBasis::hermite, wrap, 8));
-    all.push_back(curves_of(CurveBasis::catmull_rom, wrap, 7));
+    all.push_back(curves_of(Bezier{}, wrap, wrap == CurveWrap::periodic ? 9 : 10));
+    all.push_back(curves_of(Hermite{}, wrap, 8));
+    all.push_back(curves_of(CatmullRom{}, wrap, 7));
   }
   return all;
 }
 
 TEST(Piecewise, sizes_are_known_without_the_spline) {
   std::vector<ControlCurves> all = all_piecewise();
-  all.front().ranges = {0.5, 3, 0, 2};
+  nurbs_of(all.front()).ranges = {0.5, 3, 0, 2};
   all.push_back(nurbs());
   for (const CurveWrap wrap : {CurveWrap::nonperiodic, CurveWrap::periodic, CurveWrap::pinned}) {
-    all.push_back(curves_of(CurveBasis::corner_cutting, wrap, 9));
+    all.push_back(curves_of(CornerCutting{}, wrap, 9));
     for (const Index degree : {1u, 2u, 3u, 4u, 9u}) {
-      all.push_back(curves_of(CurveBasis::bspline, wrap, 12));
-      all.back().degree = degree;
+      all.push_back(curves_of(UniformBSpline{degree}, wrap, 12));
     }
   }
   for (const ControlCurves& curves : all) {
@@ -123,7 +122,7 @@ TEST(Piecewise, limits_stand_on_the_curve) {
     ASSERT_TRUE(refined);
     ASSERT_EQ(refined->limit_points.size(), refined->points.size());
     ASSERT_EQ(refined->tangents.size(), refined->points.size());
-    if (curves.basis != CurveBasis::nurbs) continue;
+    if (!std::holds_alternative<Nurbs>(curves.basis)) continue;
     for (Count i = 0; i < refined->vertex_counts[0]; ++i)  // the circle
       EXPECT_NEAR(std::hypot(refined->limit_points[2 * i], refined->limit_points[2 * i + 1]), 1, 1e-14);
   }
@@ -131,7 +130,7 @@ TEST(Piecewise, limits_stand_on_the_curve) {
 
 TEST(Piecewise, a_range_cuts_a_curve_on_knots) {
   ControlCurves curves = nurbs();
-  curves.ranges = {1, 3, 0, 2};
+  nurbs_of(curves).ranges = {1, 3, 0, 2};
   ASSERT_TRUE(curves.check());
   const Spline half = whole(curves);
   EXPECT_EQ(half.begin(), 1);
@@ -140,12 +139,12 @@ TEST(Piecewise, a_range_cuts_a_curve_on_knots) {
 }
 
 TEST(Piecewise, uniform_B_splines_are_splines_too_and_fractals_are_not) {
-  EXPECT_EQ(whole(curves_of(CurveBasis::bspline, CurveWrap::pinned, 6)).degree, 3);
-  ControlCurves cut = curves_of(CurveBasis::corner_cutting, CurveWrap::pinned, 6);
+  EXPECT_EQ(whole(curves_of(UniformBSpline{}, CurveWrap::pinned, 6)).degree, 3);
+  ControlCurves cut = curves_of(CornerCutting{}, CurveWrap::pinned, 6);
   EXPECT_EQ(whole(cut).degree, 2);
-  cut.ratio = 0.2;
+  cut.basis = CornerCutting{0.2};
   EXPECT_EQ(spline_of(cut, 0, {}).error().code, ErrorCode::unsupported);
-  EXPECT_EQ(spline_of(curves_of(CurveBasis::four_point, CurveWrap::pinned, 6), 0, {}).error().code,
+  EXPECT_EQ(spline_of(curves_of(FourPoint{}, CurveWrap::pinned, 6), 0, {}).error().code,
             ErrorCode::unsupported);
 }
 
@@ -158,34 +157,33 @@ TEST(Piecewise, check_names_the_place_of_the_fault) {
   };
   const auto at = [](const char* name, std::uint64_t i) { return Path{name, i}; };
   using C = ControlCurves;
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.orders = {3, 4, 4}; }).where, Path{"order"});
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.orders = {3, 1}; }).where, at("order", 1));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.knots.pop_back(); }).where, Path{"knots"});
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.knots[16] = -1; }).where, at("knots", 16));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.knots[16] = 9; }).where, at("knots", 17));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.weights[11] = 0; }).where, at("pointWeights", 11));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.weights.pop_back(); }).where, Path{"pointWeights"});
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).orders = {3, 4, 4}; }).where, Path{"order"});
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).orders = {3, 1}; }).where, at("order", 1));
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).knots.pop_back(); }).where, Path{"knots"});
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).knots[16] = -1; }).where, at("knots", 16));
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).knots[16] = 9; }).where, at("knots", 17));
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).weights[11] = 0; }).where, at("pointWeights", 11));
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).weights.pop_back(); }).where, Path{"pointWeights"});
   EXPECT_EQ(fault(nurbs(), [](C& c) { c.points[20] = std::nan(""); }).where, at("points", 20));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.ranges = {0, 4, 0, 3}; }).where, at("ranges", 1));
-  EXPECT_EQ(fault(nurbs(), [](C& c) { c.ranges = {0, 4}; }).where, Path{"ranges"});
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).ranges = {0, 4, 0, 3}; }).where, at("ranges", 1));
+  EXPECT_EQ(fault(nurbs(), [](C& c) { nurbs_of(c).ranges = {0, 4}; }).where, Path{"ranges"});
   EXPECT_EQ(fault(nurbs(), [](C& c) { c.vertex_counts = {9, 4}; }).code, ErrorCode::wrong_length);
-  const C bezier = curves_of(CurveBasis::bezier, CurveWrap::nonperiodic, 10);
+  const C bezier = curves_of(Bezier{}, CurveWrap::nonperiodic, 10);
   EXPECT_EQ(fault(bezier, [](C& c) { c.points.resize(18); }).code, ErrorCode::wrong_length);
   EXPECT_EQ(fault(bezier, [](C& c) { c.points.resize(6); }).code, ErrorCode::too_few_points);
   EXPECT_EQ(fault(bezier, [](C& c) { c.wrap = CurveWrap::periodic; }).code, ErrorCode::wrong_length);
   EXPECT_EQ(fault(bezier, [](C& c) { c.vertex_counts = {4, 6}; }).where, at("curveVertexCounts", 1));
-  EXPECT_EQ(
-      fault(curves_of(CurveBasis::hermite, CurveWrap::pinned, 8), [](C& c) { c.points.resize(14); }).where,
-      Path{"points"});
+  EXPECT_EQ(fault(curves_of(Hermite{}, CurveWrap::pinned, 8), [](C& c) { c.points.resize(14); }).where,
+            Path{"points"});
 }
 
 TEST(Piecewise, goes_through_the_common_door) {
   const ControlCurves curves = nurbs();
   const auto refined = refine<float>(curves, {.level = 2, .tangents = true}, {});
   ASSERT_TRUE(refined);
-  EXPECT_EQ(refined->basis, CurveBasis::nurbs);
+  ASSERT_TRUE(std::holds_alternative<Nurbs>(refined->basis));
   EXPECT_EQ(refined->points.size() / 2, total_point_count(curves, 2));
-  EXPECT_EQ(refined->orders, curves.orders);
+  EXPECT_EQ(std::get<Nurbs>(refined->basis).orders, std::get<Nurbs>(curves.basis).orders);
   EXPECT_EQ(refine<double>(curves, {.level = 25}, {}).error().code, ErrorCode::out_of_range);
   EXPECT_GE(*predict_bytes<double>(curves, {.level = 2, .tangents = true}),
             2 * refined->points.size() * sizeof(double));

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/base/overloaded.h"
 #include "core/curves/subdivision.h"
 #include "tests/shapes/random.h"
 
@@ -32,18 +33,13 @@ inline std::vector<ControlCurves> all_rules() {
   for (const CurveWrap wrap : kAllWraps) {
     ControlCurves rule;
     rule.wrap = wrap;
-    for (rule.degree = 1; rule.degree <= kMaxCurveDegree; ++rule.degree) rules.push_back(rule);
-    rule.degree = 3;
-    rule.basis = CurveBasis::four_point;
-    for (const double tension : {0.0, 1.0 / 16, 0.19}) {
-      rule.tension = tension;
+    const auto add = [&](const CurveBasis& basis) {
+      rule.basis = basis;
       rules.push_back(rule);
-    }
-    rule.basis = CurveBasis::corner_cutting;
-    for (const double ratio : {0.01, 0.25, 1.0 / 3, 0.49}) {
-      rule.ratio = ratio;
-      rules.push_back(rule);
-    }
+    };
+    for (Index degree = 1; degree <= kMaxCurveDegree; ++degree) add(UniformBSpline{degree});
+    for (const double tension : {0.0, 1.0 / 16, 0.19}) add(FourPoint{tension});
+    for (const double ratio : {0.01, 0.25, 1.0 / 3, 0.49}) add(CornerCutting{ratio});
   }
   return rules;
 }
@@ -57,9 +53,13 @@ inline ControlCurves random_curve(const ControlCurves& rule, Index more, Index w
 }
 
 inline std::string name_of_rule(const ControlCurves& curves) {
-  return "basis " + std::to_string(int(curves.basis)) + " wrap " + std::to_string(int(curves.wrap)) +
-         " degree " + std::to_string(curves.degree) + " tension " + std::to_string(curves.tension) +
-         " ratio " + std::to_string(curves.ratio) + " points " + std::to_string(curves.point_count());
+  const auto parameter = Overloaded{
+      [](const UniformBSpline& kind) { return " of degree " + std::to_string(kind.degree); },
+      [](const FourPoint& kind) { return " of tension " + std::to_string(kind.tension); },
+      [](const CornerCutting& kind) { return " of ratio " + std::to_string(kind.ratio); },
+      [](const PiecewiseKind auto&) { return std::string(); }, [](const Nurbs&) { return std::string(); }};
+  return std::string(word_of(curves.basis)) + std::visit(parameter, curves.basis) + " wrap " +
+         std::to_string(int(curves.wrap)) + " points " + std::to_string(curves.point_count());
 }
 
 // An answer with plain vectors, and what it was refined from.

@@ -260,7 +260,7 @@ TEST(PatchRefine, limits_and_frames_are_what_evaluation_gives) {
 TEST(PatchRefine, a_surface_that_is_constant_along_one_direction_is_a_curve) {
   for (const Kind kind : all_kinds()) {
     ControlCurves curve;
-    curve.degree = kind.degree;
+    curve.basis = UniformBSpline{kind.degree};
     curve.wrap = kind.wrap;
     ControlPatch patch = random_patch(kind, 6, {3, CurveWrap::pinned}, 3);
     curve.points.assign(patch.points.begin(), patch.points.begin() + 18);

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <utility>
 
+#include "core/base/overloaded.h"
 #include "core/curves/piecewise.h"
 #include "tests/shapes/random.h"
 
@@ -30,9 +31,8 @@ void add_on_knots(std::vector<CurveKind>& kinds) {
                        {},
                        clamped,
                        rational};
-        kind.rule.basis = CurveBasis::nurbs;
         kind.rule.wrap = CurveWrap::nonperiodic;
-        kind.rule.orders = {degree + 1};
+        kind.rule.basis = Nurbs{.orders = {degree + 1}};
         kinds.push_back(kind);
       }
 }
@@ -58,28 +58,27 @@ std::vector<double> random_knots(const CurveKind& kind, Index degree, Count coun
 
 Count points_needed(const ControlCurves& rule, Count more) {
   const bool closed = rule.wrap == CurveWrap::periodic;
-  switch (rule.basis) {
-    case CurveBasis::bezier:
-      return 3 * (more + 1) + (closed ? 0 : 1);
-    case CurveBasis::hermite:
-      return 2 * (more + 2);
-    case CurveBasis::catmull_rom:
-      return more + (closed ? 3 : rule.wrap == CurveWrap::pinned ? 2 : 4);
-    case CurveBasis::nurbs:
-      return more + rule.orders[0];
-    default:
-      return more + least_points(rule);
-  }
+  return std::visit(Overloaded{
+                        [&](const Bezier&) { return 3 * (more + 1) + (closed ? 0 : 1); },
+                        [&](const Hermite&) { return 2 * (more + 2); },
+                        [&](const CatmullRom&) {
+                          return more + (closed ? 3 : rule.wrap == CurveWrap::pinned ? 2 : 4);
+                        },
+                        [&](const Nurbs& nurbs) { return more + nurbs.orders[0]; },
+                        [&](const SubdividedKind auto&) { return more + least_points(rule); },
+                    },
+                    rule.basis);
 }
 
 std::vector<double> greville_abscissae(const ControlCurves& curves) {
-  const Index degree = curves.orders[0] - 1;
+  const Nurbs& nurbs = std::get<Nurbs>(curves.basis);
+  const Index degree = nurbs.orders[0] - 1;
   const Count count = curves.point_count();
   std::vector<double> ts;
   for (Count i = 0; i < count; ++i) {
     double mean = 0;
-    for (Index k = 1; k <= degree; ++k) mean += curves.knots[i + k] / degree;
-    ts.push_back(std::clamp(mean, curves.knots[degree], curves.knots[count]));
+    for (Index k = 1; k <= degree; ++k) mean += nurbs.knots[i + k] / degree;
+    ts.push_back(std::clamp(mean, nurbs.knots[degree], nurbs.knots[count]));
   }
   return ts;
 }
@@ -95,22 +94,20 @@ std::vector<CurveKind> all_curve_kinds() {
   for (const auto& [wrap_name, wrap] : kWraps) {
     ControlCurves rule;
     rule.wrap = wrap;
-    const auto add = [&](const std::string& name) { kinds.push_back({name + "_" + wrap_name, rule}); };
-    for (rule.degree = 1; rule.degree <= kMaxCurveDegree; ++rule.degree)
-      add("bspline_" + std::to_string(rule.degree));
-    rule.degree = 3;
-    rule.basis = CurveBasis::four_point;
-    for (const auto& [name, tension] : kTensions)
-      rule.tension = tension, add(std::string("four_point_") + name);
-    rule.basis = CurveBasis::corner_cutting;
-    for (const auto& [name, ratio] : kRatios) rule.ratio = ratio, add(std::string("corner_cutting_") + name);
-    rule.basis = CurveBasis::catmull_rom;
+    const auto add = [&, suffix = std::string("_") + wrap_name](const std::string& name,
+                                                                const CurveBasis& basis) {
+      rule.basis = basis;
+      kinds.push_back({name + suffix, rule});
+    };
+    for (Index degree = 1; degree <= kMaxCurveDegree; ++degree)
+      add("bspline_" + std::to_string(degree), UniformBSpline{degree});
+    for (const auto& [name, tension] : kTensions) add(std::string("four_point_") + name, FourPoint{tension});
+    for (const auto& [name, ratio] : kRatios)
+      add(std::string("corner_cutting_") + name, CornerCutting{ratio});
     for (const auto& [name, spacing] : kSpacings)
-      rule.spacing = spacing, add(std::string("catmull_rom_") + name);
-    rule.basis = CurveBasis::bezier;
-    add("bezier");
-    rule.basis = CurveBasis::hermite;
-    add("hermite");
+      add(std::string("catmull_rom_") + name, CatmullRom{spacing});
+    add("bezier", Bezier{});
+    add("hermite", Hermite{});
   }
   add_on_knots(kinds);
   return kinds;
@@ -124,10 +121,11 @@ ControlCurves random_curve(const CurveKind& kind, Count more, Index width, std::
   curves.width = width;
   const Count count = points_needed(kind.rule, more);
   for (Count k = 0; k < count * width; ++k) curves.points.push_back(random.centred());
-  if (curves.basis != CurveBasis::nurbs) return curves;
-  curves.knots = random_knots(kind, curves.orders[0] - 1, count, random);
+  Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
+  if (nurbs == nullptr) return curves;
+  nurbs->knots = random_knots(kind, nurbs->orders[0] - 1, count, random);
   if (kind.rational)
-    for (Count k = 0; k < count; ++k) curves.weights.push_back(0.5 + 1.5 * random.unit());
+    for (Count k = 0; k < count; ++k) nurbs->weights.push_back(0.5 + 1.5 * random.unit());
   return curves;
 }
 
@@ -135,8 +133,10 @@ ControlCurves together(const ControlCurves& one, const ControlCurves& two) {
   ControlCurves both = one;
   both.vertex_counts = {static_cast<Index>(one.point_count()), static_cast<Index>(two.point_count())};
   append(both.points, two.points);
-  append(both.knots, two.knots);
-  append(both.weights, two.weights);
+  if (Nurbs* nurbs = std::get_if<Nurbs>(&both.basis)) {
+    append(nurbs->knots, std::get<Nurbs>(two.basis).knots);
+    append(nurbs->weights, std::get<Nurbs>(two.basis).weights);
+  }
   return both;
 }
 
@@ -156,17 +156,15 @@ Answer refined(const ControlCurves& curves, Index level) {
   next.basis = fine->basis;
   next.points.assign(fine->points.begin(), fine->points.end());
   next.vertex_counts = fine->vertex_counts;
-  next.orders = fine->orders;
-  next.knots = fine->knots;
-  next.weights = fine->weights;
   return answer;
 }
 
 std::vector<double> parameters(const ControlCurves& curves, Index level, const Answer& fine) {
-  if (curves.basis == CurveBasis::nurbs) return greville_abscissae(fine.curves);
+  if (std::holds_alternative<Nurbs>(curves.basis)) return greville_abscissae(fine.curves);
   const Count count = fine.curves.point_count();
   // The first piece of a nonperiodic Catmull-Rom curve begins at its second point.
-  const bool second = curves.basis == CurveBasis::catmull_rom && curves.wrap == CurveWrap::nonperiodic;
+  const bool second =
+      std::holds_alternative<CatmullRom>(curves.basis) && curves.wrap == CurveWrap::nonperiodic;
   std::vector<double> ts;
   for (Count j = 0; j < count; ++j)
     ts.push_back(is_subdivided(curves.basis)
@@ -182,9 +180,9 @@ Inside inside(const ControlCurves& curves, Count points) {
 }
 
 std::optional<Spline> formula_of(const ControlCurves& curves) {
-  const bool none = curves.basis == CurveBasis::four_point ||
-                    (curves.basis == CurveBasis::corner_cutting && curves.ratio != 0.25);
-  if (none) return std::nullopt;
+  const CornerCutting* cutting = std::get_if<CornerCutting>(&curves.basis);
+  if (std::holds_alternative<FourPoint>(curves.basis) || (cutting != nullptr && cutting->ratio != 0.25))
+    return std::nullopt;
   auto spline = spline_of(curves, 0, {});
   if (spline) return std::move(*spline);
   ADD_FAILURE() << spline.error().message;
@@ -193,7 +191,7 @@ std::optional<Spline> formula_of(const ControlCurves& curves) {
 
 ControlCurves reversed(const ControlCurves& curves) {
   const Index width = curves.width;
-  const bool hermite = curves.basis == CurveBasis::hermite;
+  const bool hermite = std::holds_alternative<Hermite>(curves.basis);
   // A point and its tangent stay together; a closed curve keeps its first point.
   const Count row = width * (hermite ? 2 : 1), rows = curves.points.size() / row;
   const Count last = curves.wrap == CurveWrap::periodic ? rows : rows - 1;
@@ -203,9 +201,11 @@ ControlCurves reversed(const ControlCurves& curves) {
       const double value = curves.points[(last - i) % rows * row + k];
       back.points[i * row + k] = hermite && k >= width ? -value : value;
     }
-  std::ranges::reverse(back.weights);
-  std::ranges::reverse(back.knots);
-  for (double& knot : back.knots) knot = -knot;
+  if (Nurbs* nurbs = std::get_if<Nurbs>(&back.basis)) {
+    std::ranges::reverse(nurbs->weights);
+    std::ranges::reverse(nurbs->knots);
+    for (double& knot : nurbs->knots) knot = -knot;
+  }
   return back;
 }
 

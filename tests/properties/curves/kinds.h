@@ -8,6 +8,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/curves/subdivision.h"
@@ -57,7 +58,8 @@ ControlCurves reversed(const ControlCurves& curves);
 ControlCurves coordinate(const ControlCurves& curves, Index k);
 // Tangents are made from distances, which all coordinates have a part in.
 inline bool measures_distances(const ControlCurves& curves) {
-  return curves.basis == CurveBasis::catmull_rom && curves.spacing != Spacing::uniform;
+  const CatmullRom* kind = std::get_if<CatmullRom>(&curves.basis);
+  return kind != nullptr && kind->spacing != Spacing::uniform;
 }
 
 }  // namespace subdivd::testing

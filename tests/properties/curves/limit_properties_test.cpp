@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/overloaded.h"
 #include "core/splines/bspline.h"
 #include "tests/properties/curves/kinds.h"
 #include "tests/shapes/random.h"
@@ -17,13 +18,17 @@ class LimitCurve : public ::testing::TestWithParam<CurveKind> {
  protected:
   const ControlCurves& rule() const { return GetParam().rule; }
   bool is_polygon() const {
-    return (rule().basis == CurveBasis::bspline && rule().degree == 1) ||
-           (rule().basis == CurveBasis::four_point && rule().tension == 0) ||
-           (rule().basis == CurveBasis::nurbs && rule().orders[0] == 2);
+    return std::visit(Overloaded{[](const UniformBSpline& kind) { return kind.degree == 1; },
+                                 [](const FourPoint& kind) { return kind.tension == 0; },
+                                 [](const CornerCutting&) { return false; },
+                                 [](const PiecewiseKind auto&) { return false; },
+                                 [](const Nurbs& nurbs) { return nurbs.orders[0] == 2; }},
+                      rule().basis);
   }
   // Of corner cutting the tangent's direction alone is the curve's, but at 1/4.
   bool has_derivatives() const {
-    return !is_polygon() && (rule().basis != CurveBasis::corner_cutting || rule().ratio == 0.25);
+    const CornerCutting* cutting = std::get_if<CornerCutting>(&rule().basis);
+    return !is_polygon() && (cutting == nullptr || cutting->ratio == 0.25);
   }
 };
 
@@ -104,29 +109,22 @@ double blossom_of_power(const std::vector<double>& arguments, Index k) {
 // The highest power of t that the kind reproduces, with the control points below. Ends that are pinned pass
 // lines, closed curves pass nothing but points.
 Index reproduced_power(const ControlCurves& rule) {
-  switch (rule.basis) {
-    case CurveBasis::bezier:
-    case CurveBasis::hermite:
-      return rule.wrap == CurveWrap::periodic ? 0 : 3;
-    case CurveBasis::nurbs:
-      return rule.orders[0] - 1;
-    case CurveBasis::corner_cutting:
-      if (rule.ratio != 0.25) return 0;
-      break;
-    default:
-      break;
-  }
-  if (rule.wrap != CurveWrap::nonperiodic) return rule.wrap == CurveWrap::periodic ? 0 : 1;
-  switch (rule.basis) {
-    case CurveBasis::bspline:
-      return rule.degree;
-    case CurveBasis::four_point:
-      return rule.tension == 1.0 / 16 ? 3 : 1;
-    case CurveBasis::catmull_rom:  // the secant is a parabola's tangent
-      return rule.spacing == Spacing::uniform ? 2 : 1;
-    default:
-      return 2;
-  }
+  const bool closed = rule.wrap == CurveWrap::periodic;
+  const auto unless_ended = [&](Index power) -> Index {
+    return rule.wrap == CurveWrap::nonperiodic ? power : closed ? 0 : 1;
+  };
+  return std::visit(
+      Overloaded{
+          [&](const Bezier&) -> Index { return closed ? 0 : 3; },
+          [&](const Hermite&) -> Index { return closed ? 0 : 3; },
+          [&](const Nurbs& nurbs) -> Index { return nurbs.orders[0] - 1; },
+          [&](const UniformBSpline& kind) { return unless_ended(kind.degree); },
+          [&](const FourPoint& kind) { return unless_ended(kind.tension == 1.0 / 16 ? 3 : 1); },
+          [&](const CornerCutting& kind) -> Index { return kind.ratio == 0.25 ? unless_ended(2) : 0; },
+          // The secant is a parabola's tangent.
+          [&](const CatmullRom& kind) { return unless_ended(kind.spacing == Spacing::uniform ? 2 : 1); },
+      },
+      rule.basis);
 }
 
 // Control points of s^k, where s(t) = (t - 2) / 4 keeps the numbers small.
@@ -143,31 +141,31 @@ ControlCurves curve_of_power(ControlCurves curves, Index k) {
   for (Count i = 0; i < count; ++i) {
     const auto t = static_cast<double>(i);
     std::vector<double> arguments;
-    switch (curves.basis) {
-      case CurveBasis::bezier:
-        for (Index j = 0; j < 3; ++j)
-          arguments.push_back(s(static_cast<double>(i / 3) + (j < i % 3 ? 1 : 0)));
-        curves.points.push_back(blossom_of_power(arguments, k));
-        break;
-      case CurveBasis::hermite: {
-        const double at = s(static_cast<double>(i / 2));
-        curves.points.push_back(i % 2 == 0 ? std::pow(at, k) : k == 0 ? 0 : k * std::pow(at, k - 1.0) / 4);
-        break;
-      }
-      case CurveBasis::nurbs:
-        for (Index j = 1; j < curves.orders[0]; ++j) arguments.push_back(s(curves.knots[i + j]));
-        curves.points.push_back(blossom_of_power(arguments, k));
-        break;
-      case CurveBasis::bspline:
-      case CurveBasis::corner_cutting:
-        if (curves.wrap == CurveWrap::nonperiodic)
-          curves.points.push_back(around(t, curves.basis == CurveBasis::bspline ? curves.degree : 2));
-        else  // k is 0 or 1
-          curves.points.push_back(std::pow(s(point_parameter(curves, count, 0, i)), k));
-        break;
-      default:
-        curves.points.push_back(std::pow(s(t), k));
-    }
+    const auto of_bspline = [&](Index degree) {
+      if (curves.wrap == CurveWrap::nonperiodic) return around(t, degree);
+      return std::pow(s(point_parameter(curves, count, 0, i)), k);  // k is 0 or 1
+    };
+    const auto power = [&](double at) -> double { return std::pow(s(at), k); };
+    const auto value = Overloaded{
+        [&](const Bezier&) -> double {
+          for (Index j = 0; j < 3; ++j)
+            arguments.push_back(s(static_cast<double>(i / 3) + (j < i % 3 ? 1 : 0)));
+          return blossom_of_power(arguments, k);
+        },
+        [&](const Hermite&) -> double {
+          const double at = s(static_cast<double>(i / 2));
+          return i % 2 == 0 ? std::pow(at, k) : k == 0 ? 0 : k * std::pow(at, k - 1.0) / 4;
+        },
+        [&](const Nurbs& nurbs) -> double {
+          for (Index j = 1; j < nurbs.orders[0]; ++j) arguments.push_back(s(nurbs.knots[i + j]));
+          return blossom_of_power(arguments, k);
+        },
+        [&](const UniformBSpline& kind) -> double { return of_bspline(kind.degree); },
+        [&](const CornerCutting&) -> double { return of_bspline(2); },
+        [&](const FourPoint&) -> double { return power(t); },
+        [&](const CatmullRom&) -> double { return power(t); },
+    };
+    curves.points.push_back(std::visit(value, curves.basis));
   }
   return curves;
 }
@@ -196,7 +194,7 @@ TEST_P(LimitCurve, polynomials_up_to_its_degree_come_out_as_themselves) {
 // Where a point of a level stands at the next one, too, it has the same limit and tangent. Points of dual
 // schemes never do but at pinned ends.
 TEST_P(LimitCurve, limits_and_tangents_stay_from_level_to_level) {
-  if (rule().basis == CurveBasis::nurbs) return;  // their points move; the formula above holds them
+  if (std::holds_alternative<Nurbs>(rule().basis)) return;  // their points move; the formula above holds them
   const auto curves = random_curve(GetParam(), 6, 1);
   const bool dual = is_subdivided(rule().basis) && split_of(rule()).dual;
   const Answer coarse = refined(curves, 1);
@@ -222,7 +220,7 @@ TEST_P(LimitCurve, limits_and_tangents_stay_from_level_to_level) {
 // Of corner cutting: the point and the tangent of a corner are the middle and twice the length, per 2^-level,
 // of the edge that cuts it off.
 TEST_P(LimitCurve, cut_corners_lie_in_the_middle_of_the_cut) {
-  if (rule().basis != CurveBasis::corner_cutting) return;
+  if (!std::holds_alternative<CornerCutting>(rule().basis)) return;
   const auto curves = random_curve(GetParam(), 5, 1);
   const Index level = 2;
   const Answer here = refined(curves, level), next = refined(curves, level + 1);
@@ -259,7 +257,9 @@ double miss_of_tangents(const ControlCurves& curves, Index level) {
 // it is nearly so at 1/16, and at other tensions too rough for this; its own test has them.
 TEST_P(LimitCurve, tangents_are_what_difference_quotients_of_limits_go_to) {
   if (!has_derivatives()) return;
-  if (rule().basis == CurveBasis::four_point && rule().tension != 1.0 / 16) return;
+  if (const FourPoint* kind = std::get_if<FourPoint>(&rule().basis);
+      kind != nullptr && kind->tension != 1.0 / 16)
+    return;
   const auto curves = random_curve(GetParam(), 6, 1, 3);
   const double coarse = miss_of_tangents(curves, 3), fine = miss_of_tangents(curves, 9);
   EXPECT_GT(coarse, 1e-6);  // no straight line
@@ -269,9 +269,10 @@ TEST_P(LimitCurve, tangents_are_what_difference_quotients_of_limits_go_to) {
 // The polygon of a smooth curve comes four times closer with every step; knots of every multiplicity make it
 // come to that slowly.
 TEST_P(LimitCurve, the_distance_to_the_limit_shrinks_to_a_quarter_per_step) {
-  if (!has_derivatives() || rule().basis == CurveBasis::four_point) return;  // that one is at its limit
+  if (!has_derivatives() || std::holds_alternative<FourPoint>(rule().basis))
+    return;  // that one is at its limit
   // Points outside the domain of open knots stay as far from it as they are.
-  if (rule().basis == CurveBasis::nurbs && !GetParam().clamped) return;
+  if (std::holds_alternative<Nurbs>(rule().basis) && !GetParam().clamped) return;
   const auto curves = random_curve(GetParam(), 5, 1);
   const auto distance = [&](Index level) {
     const Answer fine = refined(curves, level);
@@ -281,7 +282,7 @@ TEST_P(LimitCurve, the_distance_to_the_limit_shrinks_to_a_quarter_per_step) {
     return worst;
   };
   const double ratio = distance(11) / distance(5) * (1 << 12);
-  if (rule().basis == CurveBasis::nurbs) {
+  if (std::holds_alternative<Nurbs>(rule().basis)) {
     EXPECT_GT(ratio, 0.5);
     EXPECT_LT(ratio, 4);
   } else {
