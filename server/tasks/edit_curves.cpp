@@ -7,6 +7,7 @@
 #include "core/base/pace.h"
 #include "core/curves/bases.h"
 #include "core/curves/piecewise.h"
+#include "core/splines/approximation.h"
 #include "core/splines/degree.h"
 #include "core/splines/edit.h"
 #include "core/splines/knot_insertion.h"
@@ -23,7 +24,7 @@ using proto::CurveTask;
 using proto::CurveTaskKind;
 using proto::EditedCurves;
 
-Result<Approximation> inserted(const Spline& spline, const CurveTask& task, const Budget& budget) {
+Result<Approximation> insert_knots(const Spline& spline, const CurveTask& task, const Budget& budget) {
   // In the caller's order they may fall; sorted ones are inserted, and a fault is told by its own place.
   const auto knots = stoppable(budget, [&](const Pace& pace) {
     std::vector<double> sorted;
@@ -58,7 +59,7 @@ Result<Approximation> remove_knots_of(const Spline& spline, const CurveTask& tas
 }
 
 // Down to `degree`, one after the other; what that takes is free again.
-Result<void> reduce(Approximation& curve, Index degree, double allowed, ReusedMemory& memory) {
+Result<void> reduce_to_degree(Approximation& curve, Index degree, double allowed, ReusedMemory& memory) {
   const Count before = memory.used();
   while (curve.spline.degree > degree) {
     auto reduced = reduce_degree(curve.spline, memory.budget());
@@ -94,7 +95,8 @@ Result<Approximation> convert_curve(Spline spline, const CurveTask& task, double
         !done)
       return std::move(done).error();
   if (task.to_degree)
-    if (auto done = reduce(result, *task.to_degree, tolerance, memory); !done) return std::move(done).error();
+    if (auto done = reduce_to_degree(result, *task.to_degree, tolerance, memory); !done)
+      return std::move(done).error();
   if (task.reversed) {
     auto back = stoppable(budget, [&](const Pace& pace) { return reversed(result.spline, pace); });
     if (auto done = put(std::move(back), "reversed"); !done) return std::move(done).error();
@@ -141,11 +143,11 @@ CurveBasis basis_of(CurveForm form) {
   return Nurbs{};
 }
 
-Result<Approximation> edited(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory,
-                             Count& removed) {
+Result<Approximation> edit_curve(Spline spline, const CurveTask& task, double tolerance, ReusedMemory& memory,
+                                 Count& removed) {
   switch (task.kind) {
     case CurveTaskKind::insert_knot:
-      return inserted(spline, task, memory.budget());
+      return insert_knots(spline, task, memory.budget());
     case CurveTaskKind::remove_knot:
       return remove_knots_of(spline, task, memory.budget(), removed);
     default:
@@ -153,8 +155,8 @@ Result<Approximation> edited(Spline spline, const CurveTask& task, double tolera
   }
 }
 
-void append(const Spline& spline, const std::vector<double>& points, RefinedCurves<double>& curves,
-            const Pace& pace) {
+void append_to_set(const Spline& spline, const std::vector<double>& points, RefinedCurves<double>& curves,
+                   const Pace& pace) {
   curves.vertex_counts.push_back(static_cast<Index>(points.size() / curves.width));
   pace.append(points, curves.points);
   Nurbs* nurbs = std::get_if<Nurbs>(&curves.basis);
@@ -185,31 +187,22 @@ class Collector {
 
   Result<void> add(Approximation curve, Count removed, double tolerance, std::size_t set) {
     if (!task_.join) return write(curve, removed, tolerance, set);
-    if (!joined_) {
-      joined_ = std::move(curve);
-      tolerance_ = tolerance;
-      return {};
-    }
-    const double gap = std::max(tolerance_, tolerance);
-    if (auto done = subdivd::append(joined_->spline, curve.spline, gap, budget_); !done) {
-      Error error = std::move(done).error();
-      error.where.clear();
-      return proto::blame_input(request_.curves, std::move(error), "curves", set);
-    }
-    joined_->bound = std::max(joined_->bound, curve.bound + gap / 2);
-    tolerance_ = gap;
-    return {};
+    auto done = append(joined_, std::move(curve), tolerance, budget_);
+    if (done) return {};
+    Error error = std::move(done).error();
+    error.where.clear();
+    return proto::blame_input(request_.curves, std::move(error), "curves", set);
   }
 
   Result<EditedCurves> finish() {
-    if (!joined_) return std::move(all_);
+    if (!joined_.whole) return std::move(all_);
     all_.answer.curves.resize(1);
     if (task_.domain) {
-      auto moved = reparametrized(joined_->spline, (*task_.domain)[0], (*task_.domain)[1], budget_);
+      auto moved = reparametrized(joined_.whole->spline, (*task_.domain)[0], (*task_.domain)[1], budget_);
       if (!moved) return at_member(std::move(moved).error(), "domain");
-      joined_->spline = *std::move(moved);
+      joined_.whole->spline = *std::move(moved);
     }
-    if (auto done = write(*joined_, 0, tolerance_, 0); !done) return std::move(done).error();
+    if (auto done = write(*joined_.whole, 0, joined_.tolerance, 0); !done) return std::move(done).error();
     return std::move(all_);
   }
 
@@ -217,8 +210,9 @@ class Collector {
   Result<void> write(const Approximation& curve, Count removed, double tolerance, std::size_t set) {
     auto points = points_in(form_, curve.spline, tolerance, budget_);
     if (!points) return at_member(std::move(points).error(), "to");
-    const auto done = stoppable(
-        budget_, [&](const Pace& pace) { append(curve.spline, *points, all_.answer.curves[set], pace); });
+    const auto done = stoppable(budget_, [&](const Pace& pace) {
+      append_to_set(curve.spline, *points, all_.answer.curves[set], pace);
+    });
     if (!done) return done;
     all_.removed.push_back(removed);
     all_.error_bounds.push_back(curve.bound);
@@ -230,8 +224,7 @@ class Collector {
   const Budget& budget_;
   const CurveForm form_;
   EditedCurves all_;
-  std::optional<Approximation> joined_;
-  double tolerance_ = 0;
+  JoinedCurve joined_;
 };
 
 }  // namespace
@@ -244,11 +237,11 @@ Result<EditedCurves> compute_edited(const CurveRequest& request, const Budget& w
     return spline_of(curves, curve, place, one);
   };
   const auto edit = [&](Spline spline, std::size_t set, Count) -> Result<void> {
-    const auto size = stoppable(budget, [&](const Pace& pace) { return extent(spline, pace); });
-    if (!size) return size.error();
-    const double tolerance = request.task.tolerance.value_or(1e-10 * *size);
+    const auto least = stoppable(budget, [&](const Pace& pace) { return rounding_tolerance(spline, pace); });
+    if (!least) return least.error();
+    const double tolerance = request.task.tolerance.value_or(*least);
     Count removed = 0;
-    auto changed = edited(std::move(spline), request.task, tolerance, memory, removed);
+    auto changed = edit_curve(std::move(spline), request.task, tolerance, memory, removed);
     if (!changed) return std::move(changed).error();
     return collector.add(*std::move(changed), removed, tolerance, set);
   };

@@ -2,10 +2,10 @@
 #include <utility>
 #include <variant>
 
+#include "core/curves/evaluable_curve.h"
 #include "core/curves/flatten_subdivided.h"
 #include "server/tasks/compute_curves.h"
 #include "server/tasks/each_curve.h"
-#include "server/tasks/evaluable_curve.h"
 
 namespace subdivd::server::tasks {
 namespace {

@@ -16,7 +16,7 @@ using proto::CurveTask;
 using proto::CurveTaskKind;
 
 // What an answer holds: numbers, and the curves and sets of curves that they belong to.
-struct Holdings {
+struct AnswerCounts {
   Count numbers = 0, curves = 0, sets = 0;
   Count names = 0;  // bytes
 };
@@ -24,7 +24,7 @@ struct Holdings {
 // --- Edited curves ----------------------------------------------------------------------------------------
 
 // A curve after its task; never more than this. What is removed, cut off or reduced makes it smaller.
-SplineSize edited(SplineSize size, const CurveTask& task) {
+SplineSize size_after_task(SplineSize size, const CurveTask& task) {
   size.points += task.insert.size();
   if (!task.to_degree) return size;
   if (*task.to_degree > size.degree) size.points += size.spans * (*task.to_degree - size.degree);
@@ -32,7 +32,7 @@ SplineSize edited(SplineSize size, const CurveTask& task) {
   return size;
 }
 
-SplineSize lifted(SplineSize size, Index degree) {
+SplineSize size_at_degree(SplineSize size, Index degree) {
   if (degree > size.degree) size.points += size.spans * (degree - size.degree);
   size.degree = std::max(size.degree, degree);
   return size;
@@ -64,7 +64,7 @@ void for_each_edited(const CurveRequest& request, const Pace& pace, F&& f) {
     CurvePlace place;
     for (Count c = 0; c < curves.curve_count(); place = next_place(curves, c, place), ++c) {
       pace.spend(4);
-      f(edited(spline_size(curves, c, place, pace), request.task), curves);
+      f(size_after_task(spline_size(curves, c, place, pace), request.task), curves);
     }
   }
 }
@@ -74,7 +74,7 @@ bool is_rational(const ControlCurves& curves) {
   return nurbs != nullptr && !nurbs->weights.empty();
 }
 
-// All curves as one, lifted to the highest degree among them.
+// All curves as one, raised to the highest degree among them.
 Count numbers_joined(const CurveRequest& request, const Pace& pace) {
   Index degree = 1, width = 1;
   bool rational = false;
@@ -85,7 +85,7 @@ Count numbers_joined(const CurveRequest& request, const Pace& pace) {
   });
   SplineSize all{degree, 0, 0};
   for_each_edited(request, pace, [&](const SplineSize& size, const ControlCurves&) {
-    all.points += lifted(size, degree).points;
+    all.points += size_at_degree(size, degree).points;
     all.spans += size.spans;
   });
   return numbers_of(all, width, rational, request.task.to);
@@ -148,8 +148,8 @@ Count numbers_measured(const CurveRequest& request, const Pace& pace) {
 
 // --- Together ---------------------------------------------------------------------------------------------
 
-Result<Holdings> holdings_of(const CurveRequest& request, const Pace& pace) {
-  Holdings all;
+Result<AnswerCounts> answer_counts(const CurveRequest& request, const Pace& pace) {
+  AnswerCounts all;
   for (const ControlCurves& set : request.curves.curves) {
     pace.spend(1);
     all.curves += set.curve_count();
@@ -173,7 +173,7 @@ Result<Holdings> holdings_of(const CurveRequest& request, const Pace& pace) {
 
 // Beside the numbers: what every curve has of its own, in vectors that grow, and every point to come close
 // to.
-Count bytes_beside(const CurveRequest& request, const Holdings& all) {
+Count bytes_beside(const CurveRequest& request, const AnswerCounts& all) {
   constexpr Count kOfMeasure = 1536, kOfClosestPoint = 160, kOfSet = 1536, kOfEdited = 320, kOfName = 8;
   switch (request.task.kind) {
     case CurveTaskKind::evaluate:
@@ -192,7 +192,7 @@ Count bytes_beside(const CurveRequest& request, const Holdings& all) {
 
 Result<Count> predict_curve_task(const CurveRequest& request, Count most, const Budget& budget) {
   constexpr Count kTextOfNumber = 26, kBytesOfNumber = 64;
-  const auto all = stoppable(budget, [&](const Pace& pace) { return holdings_of(request, pace); });
+  const auto all = stoppable(budget, [&](const Pace& pace) { return answer_counts(request, pace); });
   if (!all) return all.error();
   const Count text = all->numbers * kTextOfNumber;
   if (text <= most) return all->numbers * kBytesOfNumber + bytes_beside(request, *all);

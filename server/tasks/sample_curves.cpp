@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/base/pace.h"
+#include "core/curves/evaluable_curve.h"
 #include "core/splines/bspline.h"
 #include "core/splines/differential.h"
 #include "core/splines/growing_memory.h"
@@ -13,7 +14,6 @@
 #include "proto/prepare.h"
 #include "server/tasks/compute_curves.h"
 #include "server/tasks/each_curve.h"
-#include "server/tasks/evaluable_curve.h"
 #include "server/tasks/reused_memory.h"
 
 namespace subdivd::server::tasks {
@@ -23,7 +23,7 @@ using proto::CurveRequest;
 using proto::CurveSamples;
 using proto::CurveTask;
 
-struct Located {
+struct CurveInRequest {
   std::size_t set;
   Count curve;
   CurvePlace place;
@@ -35,8 +35,8 @@ Count curve_count(const CurveRequest& request) {
   return count;
 }
 
-std::vector<Located> all_curves(const CurveRequest& request, const Pace& pace) {
-  std::vector<Located> all;
+std::vector<CurveInRequest> all_curves(const CurveRequest& request, const Pace& pace) {
+  std::vector<CurveInRequest> all;
   all.reserve(curve_count(request));
   for (std::size_t i = 0; i < request.curves.curves.size(); ++i) {
     const std::vector<CurvePlace> places = curve_places(request.curves.curves[i], pace);
@@ -150,9 +150,9 @@ CurveSamples empty_samples(const CurveTask& task, const Pace& pace) {
 }
 
 // Curves are made when they are asked for, and kept.
-class CurveShelf {
+class CurveCache {
  public:
-  CurveShelf(const CurveRequest& request, ReusedMemory& memory, const Pace& pace)
+  CurveCache(const CurveRequest& request, ReusedMemory& memory, const Pace& pace)
       : request_(request), memory_(memory), places_(all_curves(request, pace)) {
     pace.fill(curves_, places_.size(), std::nullopt);
   }
@@ -178,25 +178,25 @@ class CurveShelf {
  private:
   const CurveRequest& request_;
   ReusedMemory& memory_;
-  std::vector<Located> places_;
+  std::vector<CurveInRequest> places_;
   std::vector<std::optional<EvaluableCurve>> curves_;
 };
 
-Result<CurveSamples> sampled(const CurveRequest& request, ReusedMemory& memory, const Pace& pace) {
+Result<CurveSamples> sample_curves(const CurveRequest& request, ReusedMemory& memory, const Pace& pace) {
   const CurveTask& task = request.task;
-  CurveShelf shelf(request, memory, pace);
+  CurveCache cache(request, memory, pace);
   CurveSamples samples = empty_samples(task, pace);
   Sampler sampler(task, samples);
   for (std::size_t k = 0; k < task.sample_ts.size(); ++k) {
     const Index number = task.sample_curves[k];
-    if (number >= shelf.size()) return no_such("curve", "curves", k, number, shelf.size());
-    const auto curve = shelf.curve(number);
+    if (number >= cache.size()) return no_such("curve", "curves", k, number, cache.size());
+    const auto curve = cache.curve(number);
     if (!curve) return curve.error();
     pace.spend(steps_of_sample(**curve, task));
     const auto done =
         std::visit([&](const auto& one) { return sampler.add(one, task.sample_ts[k]); }, **curve);
     if (!done && done.error().where == Path{"points"})  // too large, at whatever parameter
-      return proto::blame_input(request.curves, done.error(), "curves", shelf.set_of(number));
+      return proto::blame_input(request.curves, done.error(), "curves", cache.set_of(number));
     if (!done) return at_sample(done.error(), task, k);
   }
   return samples;
@@ -206,19 +206,21 @@ Result<CurveSamples> sampled(const CurveRequest& request, ReusedMemory& memory, 
 
 Result<CurveSamples> compute_samples(const CurveRequest& request, const Budget& budget) {
   ReusedMemory memory(budget);
-  constexpr Count kOfCurve = sizeof(Located) + 3 * sizeof(CurvePlace) + sizeof(std::optional<EvaluableCurve>);
+  constexpr Count kOfCurve =
+      sizeof(CurveInRequest) + 3 * sizeof(CurvePlace) + sizeof(std::optional<EvaluableCurve>);
   if (auto taken = memory.budget().take_memory(curve_count(request) * kOfCurve); !taken) return taken.error();
-  return stoppable(memory.budget(), [&](const Pace& pace) { return sampled(request, memory, pace); });
+  return stoppable(memory.budget(), [&](const Pace& pace) { return sample_curves(request, memory, pace); });
 }
 
-Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& request, const Budget& budget) {
+namespace {
+
+Result<proto::SurfaceSamples> sample_surfaces(const CurveRequest& request, const Pace& pace) {
   const CurveTask& task = request.task;
   const std::vector<ControlPatch>& surfaces = request.curves.surfaces;
   proto::SurfaceSamples samples;
   samples.samples.reserve(task.sample_us.size());
-  BudgetPoller poller(budget);
   for (std::size_t k = 0; k < task.sample_us.size(); ++k) {
-    if (auto stop = poller.spend(64)) return *stop;
+    pace.spend(64);
     const Index number = task.sample_surfaces[k];
     if (number >= surfaces.size()) return no_such("surface", "surfaces", k, number, surfaces.size());
     auto sample = evaluate<double>(surfaces[number], task.sample_us[k], task.sample_vs[k]);
@@ -235,6 +237,12 @@ Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& reques
     return error;
   }
   return samples;
+}
+
+}  // namespace
+
+Result<proto::SurfaceSamples> compute_surface_samples(const CurveRequest& request, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) { return sample_surfaces(request, pace); });
 }
 
 }  // namespace subdivd::server::tasks

@@ -1,8 +1,8 @@
-#include "server/tasks/evaluable_curve.h"
+#include "core/curves/evaluable_curve.h"
 
 #include <utility>
 
-namespace subdivd::server::tasks {
+namespace subdivd {
 
 Result<EvaluableCurve> evaluable_curve(const ControlCurves& curves, Count curve, CurvePlace place,
                                        const Budget& budget) {
@@ -14,4 +14,4 @@ Result<EvaluableCurve> evaluable_curve(const ControlCurves& curves, Count curve,
   return EvaluableCurve(*subdivided);
 }
 
-}  // namespace subdivd::server::tasks
+}  // namespace subdivd

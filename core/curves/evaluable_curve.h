@@ -1,5 +1,5 @@
 #pragma once
-// A curve of a request as what can be evaluated and flattened.
+// A control curve as what can be evaluated and flattened.
 
 #include <variant>
 
@@ -8,7 +8,7 @@
 #include "core/curves/local_subdivision.h"
 #include "core/curves/piecewise.h"
 
-namespace subdivd::server::tasks {
+namespace subdivd {
 
 // On knots what has polynomial pieces, else the points and the rule.
 using EvaluableCurve = std::variant<Spline, SubdividedCurve>;
@@ -17,4 +17,4 @@ using EvaluableCurve = std::variant<Spline, SubdividedCurve>;
 Result<EvaluableCurve> evaluable_curve(const ControlCurves& curves, Count curve, CurvePlace place,
                                        const Budget& budget);
 
-}  // namespace subdivd::server::tasks
+}  // namespace subdivd
