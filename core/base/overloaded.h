@@ -1,5 +1,6 @@
 #pragma once
-// Several lambdas as one visitor of a std::variant: the compiler finds the alternative that none of them takes.
+// Several lambdas as one visitor of a std::variant: the compiler finds the alternative that none of them
+// takes.
 
 namespace subdivd {
 

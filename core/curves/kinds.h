@@ -1,6 +1,6 @@
 #pragma once
-// The kinds of curves, each with its own parameters and with what it alone knows. Whoever needs more of a kind
-// visits CurveBasis without a default, so that the compiler finds what a new kind still lacks.
+// The kinds of curves, each with its own parameters and with what it alone knows. Whoever needs more of a
+// kind visits CurveBasis without a default, so that the compiler finds what a new kind still lacks.
 //
 // Every kind has kWord, its name on the wire, and kFamily, how it is refined. Beside these
 //
@@ -8,8 +8,8 @@
 //                split()        what a step does to the numbering of points
 //                limit_masks()  what leads to the limit
 //                children()     2i into `first` and 2i+1 into `second` for consecutive points i: `scalars`
-//                               scalars from `self` on, `width` per point, whose neighbours within reach can be
-//                               read too; the three arrays must not overlap
+//                               scalars from `self` on, `width` per point, whose neighbours within reach
+//                               can be read too; the three arrays must not overlap
 //                description()  "cubic curve", for messages
 //   by pieces    check_count()  how the points of one curve must be counted; `where` takes the blame
 //                segments()     of a curve of so many points, which must have passed check_count()
@@ -169,7 +169,7 @@ inline std::string_view word_of(const CurveBasis& basis) {
   return std::visit([]<class Kind>(const Kind&) { return Kind::kWord; }, basis);
 }
 
-// f(kind) of a curve that is subdivided; of others it must not be called.
+// f(kind) of a curve that is subdivided, which is assumed.
 template <class F>
 auto visit_scheme(const CurveBasis& basis, F&& f) {
   using R = std::invoke_result_t<F, const UniformBSpline&>;
