@@ -14,6 +14,7 @@
 //   by pieces    check_count()  how the points of one curve must be counted; `where` takes the blame
 //                segments()     of a curve of so many points, which must have passed check_count()
 
+#include <cassert>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -173,6 +174,7 @@ inline std::string_view word_of(const CurveBasis& basis) {
 template <class F>
 auto visit_scheme(const CurveBasis& basis, F&& f) {
   using R = std::invoke_result_t<F, const UniformBSpline&>;
+  assert(is_subdivided(basis));
   return std::visit(
       [&]<class Kind>(const Kind& kind) -> R {
         if constexpr (SubdividedKind<Kind>)

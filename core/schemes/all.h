@@ -1,6 +1,7 @@
 #pragma once
-// THE list of schemes, and the only dispatch by name. A scheme is one file and one word here: look-up by name,
-// its options on the wire, its spectrum, the engine that runs it and the property tests follow from the list.
+// THE list of schemes, and the only dispatch by name. A scheme is one file and one word here: look-up by
+// name, its options on the wire, its spectrum, the engine that runs it and the property tests follow from the
+// list.
 
 #include <array>
 #include <optional>
@@ -76,8 +77,8 @@ inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, const AllS
   return find_scheme(name.empty() ? kSchemeNames.front() : name, schemes);
 }
 
-// Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and ends
-// with what would be right. Empty: it can.
+// Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and
+// ends with what would be right. Empty: it can.
 inline std::string_view beyond_opensubdiv(const AnyScheme& scheme) {
   return std::visit([](const auto& one) { return one.beyond_opensubdiv(); }, scheme);
 }

@@ -45,8 +45,8 @@ concept HasOptions = std::semiregular<S> && requires {
   { S::options() } -> std::convertible_to<std::span<const SchemeOption<S>>>;
 };
 
-// Constants of the type: how its faces split, which faces it takes, and the valence of the vertices that come to
-// lie inside a face or on an edge of two faces (on a border half of that and one more).
+// Constants of the type: how its faces split, which faces it takes, and the valence of the vertices that come
+// to lie inside a face or on an edge of two faces (on a border half of that and one more).
 template <class S>
 concept HasSplit = requires {
   typename std::integral_constant<Split, S::split>;
@@ -61,8 +61,8 @@ concept HasMasks = requires(const S& scheme, EdgeRing e, VertexRing v) {
   { scheme.vertex_mask(v) } -> std::same_as<VertexMask>;
 };
 
-// Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring in
-// cyclic order.
+// Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
+// in cyclic order.
 template <class S>
 concept HasLimitMasks = requires(const S& scheme, Index n, Index a, Index b, Pace pace) {
   { scheme.smooth_limit_mask(n) } -> std::same_as<VertexMask>;
@@ -71,9 +71,9 @@ concept HasLimitMasks = requires(const S& scheme, Index n, Index a, Index b, Pac
   { scheme.dart_limit_mask(n, pace) } -> std::same_as<RingMask>;
 };
 
-// Of n weights: two tangents at a smooth vertex, u x v outwards on a ring that runs counter-clockwise, and what
-// takes the place of u at a dart, where v is the same. Of m + 1 weights: across a sector of m faces between the
-// crease edges 0 and m; along the crease it is e_0 - e_m.
+// Of n weights: two tangents at a smooth vertex, u x v outwards on a ring that runs counter-clockwise, and
+// what takes the place of u at a dart, where v is the same. Of m + 1 weights: across a sector of m faces
+// between the crease edges 0 and m; along the crease it is e_0 - e_m.
 template <class S>
 concept HasTangentMasks = requires(const S& scheme, Index n, Index m, Pace pace) {
   { scheme.smooth_tangent_u(n) } -> std::same_as<RingMask>;
