@@ -75,24 +75,4 @@ class Budget {
   }
 };
 
-// Polls a budget once in many steps: for loops whose steps are too short to poll at each.
-class BudgetPoller {
- public:
-  static constexpr Count kInterval = 4096;  // elementary steps (some 10 ns each) between two polls
-
-  explicit BudgetPoller(const Budget& budget) : budget_(budget) {}
-
-  // Call after (or before) `steps` more steps. Empty: go on. Otherwise the reason to stop.
-  std::optional<Error> spend(Count steps) {
-    spent_ += steps;
-    if (spent_ < kInterval) return std::nullopt;
-    spent_ = 0;
-    return budget_.poll();
-  }
-
- private:
-  const Budget& budget_;
-  Count spent_ = kInterval;  // the first call polls: a dead caller costs nothing
-};
-
 }  // namespace subdivd

@@ -23,9 +23,11 @@ template <class Faces>
 Topology<Faces>::Topology(Index vertex_count, Faces faces, Buffer<Index> half_edge_edges,
                           Buffer<std::array<Index, 2>> edge_vertices)
     : Base(typename Base::WithoutEdges{}, vertex_count, std::move(faces)) {
-  edges_.of_half_edges = std::move(half_edge_edges);
-  edges_.vertices = std::move(edge_vertices);
-  edges_.sides.assign(edge_count(), {kNoIndex, kNoIndex});
+  Edges edges;
+  edges.of_half_edges = std::move(half_edge_edges);
+  edges.vertices = std::move(edge_vertices);
+  edges.sides.assign(edges.count(), {kNoIndex, kNoIndex});
+  edges_ = std::move(edges);
   for (Index h = 0; h < corner_vertices().size(); ++h)
     edges_.attach(h, corner_vertices()[h], edges_.of_half_edges[h]);
   edges_.set_kinds();

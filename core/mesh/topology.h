@@ -160,7 +160,7 @@ auto Topology<Faces>::fans_of_one(Index v, Passable passable, const Pace& pace) 
   result.ranges_.back().closed = whole;
   if (result.size() > 1)
     pace.sort(result.ranges_.begin(), result.ranges_.end(),
-              [](const Fans::Range& a, const Fans::Range& b) { return a.lowest < b.lowest; });
+              [](const auto& a, const auto& b) { return a.lowest < b.lowest; });
   return result;
 }
 

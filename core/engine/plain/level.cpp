@@ -56,7 +56,7 @@ Adjacency split_triangles(const Adjacency& parent, const Pace& pace) {
   edges.reserve(corner_count);
   pace.fill(ends, Count{inside} + parent.half_edge_count(), {});
   pace.for_each(parent.edge_count(), [&](Index e) {
-    for (const Index end : {0, 1}) ends[2 * e + end] = {parent.edge_vertices(e)[end], vertices + e};
+    for (const Index end : {0u, 1u}) ends[2 * e + end] = {parent.edge_vertices(e)[end], vertices + e};
   });
   pace.for_each(parent.face_count(), [&](Index f) {
     assert(parent.face_size(f) == 3);
@@ -87,7 +87,7 @@ Level split(const Level& level, const Pace& pace) {
   pace.fill(next.sharpness.edges, next.faces.edge_count(), 0.0f);  // edges inside faces are smooth
   pace.fill(next.sharpness.vertices, next.faces.vertex_count(), 0.0f);
   pace.for_each(parent.edge_count(), [&](Index e) {
-    for (const Index half : {0, 1}) next.sharpness.edges[2 * e + half] = level.halves[e][half];
+    for (const Index half : {0u, 1u}) next.sharpness.edges[2 * e + half] = level.halves[e][half];
     if (level.linear_borders && parent.edge_half_edges(e).size() == 1)
       next.sharpness.vertices[parent.vertex_count() + e] = kInfiniteSharpness;
   });
