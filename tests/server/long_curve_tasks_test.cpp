@@ -39,6 +39,7 @@ proto::CurveRequest request_of(Kind kind, const std::string& body) {
 TEST(LongCurveTasks, stop_in_the_middle_of_a_curve) {
   constexpr std::size_t kPoints = 400'000;
   for (const char* members : {R"("reversed":true)", R"("domain":[0,1])", R"("range":[5,1000])"}) {
+    SCOPED_TRACE(members);
     const auto request = request_of(Kind::convert, line(kPoints, members));
     expect_stops_midway([&](const Budget& budget) { return compute_edited(request, budget); });
   }
