@@ -12,6 +12,8 @@ class ByteMaker {
  public:
   virtual ~ByteMaker() = default;
   virtual Count size() const = 0;  // of all of them, whatever has been made
+  // What it keeps in memory to make them, at most.
+  virtual Count held_bytes() const = 0;
   // Those that follow, valid until the next call; none: that was all. Neither fails nor allocates.
   virtual std::span<const std::byte> next() noexcept = 0;
 };

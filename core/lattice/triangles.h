@@ -28,6 +28,7 @@ class TriangleStream {
 
   Count index_count() const { return index_count_; }  // of all triangles
   Count least_room() const;                           // that next() needs, in indices
+  Count held_bytes() const;  // of what it keeps in memory, at most; the connectivity may be shared
   // Writes the triangles that follow, as many as there is room for; returns the number of their indices, 0
   // behind the last.
   Count next(std::span<Index> out);

@@ -38,6 +38,7 @@ class IndexMaker final : public ByteMaker {
       : triangles_(std::move(triangles)), piece_(std::max(kPieceIndices, triangles_.least_room())) {}
 
   Count size() const override { return sizeof(Index) * triangles_.index_count(); }
+  Count held_bytes() const override { return sizeof(Index) * piece_.size() + triangles_.held_bytes(); }
   std::span<const std::byte> next() noexcept override {
     return std::as_bytes(std::span<const Index>(piece_).first(triangles_.next(piece_)));
   }

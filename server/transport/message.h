@@ -67,10 +67,10 @@ struct Response {
     for (const Bytes& part : body) total += part.size();
     return total;
   }
-  // Of it, what stands in memory.
+  // What stands in memory until it is sent: all that is not made only then, and what that is made from.
   std::uint64_t held_bytes() const {
     std::uint64_t total = 0;
-    for (const Bytes& part : body) total += part.bytes.size();
+    for (const Bytes& part : body) total += part.maker ? part.maker->held_bytes() : part.bytes.size();
     return total;
   }
 };

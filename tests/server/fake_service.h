@@ -113,6 +113,7 @@ class FakeService final : public Service {
       for (std::size_t k = 1; k <= pieces_; ++k) total += size_of(k);
       return total;
     }
+    Count held_bytes() const override { return kPiece; }
     std::span<const std::byte> next() noexcept override {
       if (at_ == pieces_) return {};
       ++at_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/lattice/split.h"
+#include "core/mesh/topology.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
@@ -59,6 +60,24 @@ TEST(TriangleStream, leaves_holes_out_wherever_they_are) {
   }
   for (const auto& holes : all)
     for (const Index level : {0, 1, 3, 4, 6}) expect_whole(mesh, level, holes);
+}
+
+// A slow reader keeps the base mesh's connectivity in memory: the numbers of every array of it.
+TEST(TriangleStream, knows_what_it_keeps_in_memory) {
+  for (const auto& [name, mesh] : shapes::all_shapes()) {
+    const auto topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(mesh.point_count()),
+                                                                      Triangles(mesh.face_vertex_indices));
+    const TriangleStream stream(topology, 5, std::vector<unsigned char>(mesh.face_count(), 0));
+    Count bytes = mesh.face_count() + topology->corner_vertices().size_bytes() +
+                  topology->half_edge_edges().size_bytes() + topology->edge_vertices().size_bytes() +
+                  topology->edge_sides().size_bytes() + topology->edge_kinds().size_bytes() +
+                  topology->all_vertex_edges().size_bytes() + topology->vertex_edge_offsets().size_bytes() +
+                  topology->non_manifold_vertices().size_bytes();
+    for (Index v = 0; v < topology->vertex_count(); ++v)
+      bytes += topology->vertex_corners(v).size_bytes() + sizeof(Index);
+    EXPECT_GE(stream.held_bytes(), bytes) << name;
+    EXPECT_LT(stream.held_bytes(), 3 * bytes) << name;
+  }
 }
 
 TEST(TriangleStream, of_nothing_is_empty) {

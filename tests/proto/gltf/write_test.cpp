@@ -68,7 +68,11 @@ TEST(WriteTriangles, makes_many_indices_late_and_the_same) {
   const auto payload = server::tasks::refine(request, {}, {}, phases);
   ASSERT_TRUE(payload.ok());
   std::size_t made = 0;
-  for (const proto::Chunk& chunk : payload->chunks) made += chunk.maker != nullptr;
+  for (const proto::Chunk& chunk : payload->chunks)
+    if (chunk.maker != nullptr) {
+      ++made;
+      EXPECT_LT(chunk.maker->held_bytes(), chunk.size() / 4);
+    }
   EXPECT_EQ(made, 2u);  // one for each primitive
   const std::string bytes = text_of(*payload);
   EXPECT_EQ(bytes.size(), payload->size());
