@@ -210,8 +210,9 @@ Count TriangleStream::least_room() const {
   return FaceWriter::has_rows(n) ? indices_of_row(n, 0) + FaceWriter::kRoomBehindRow : 3 * n * n;
 }
 
-// A topology, if that is what the connectivity belongs to: corners, their edges and their places around vertices;
-// ends, sides, kind and two places of every edge, with room for half as many more; two offsets of every vertex.
+// A topology, if that is what the connectivity belongs to: corners, their edges and their places around
+// vertices; ends, sides, kind and two places of every edge, with room for half as many more; two offsets of
+// every vertex.
 Count TriangleStream::held_bytes() const {
   if (!connectivity_) return 0;
   constexpr Count kOfFace = 36, kOfEdge = 34, kOfVertex = 16;

@@ -128,7 +128,9 @@ Result<Index> Output::add_indices(Buffer<Index> values, Index vertex_count) {
 
 Result<Index> Output::add_indices(TriangleStream triangles, Index vertex_count) {
   const Count count = triangles.index_count();
-  if (format_ == Format::glb && vertex_count > kMaxShortVertices && count >= kWorthMaking) {
+  // Below level 2 what they are made from is larger than they are.
+  const bool saves_memory = triangles.held_bytes() < sizeof(Index) * count;
+  if (format_ == Format::glb && vertex_count > kMaxShortVertices && count >= kWorthMaking && saves_memory) {
     const Chunk made{nullptr, {}, std::make_shared<IndexMaker>(std::move(triangles))};
     return add_accessor(made, count, kUnsignedInt, "SCALAR", Target::indices, {});
   }

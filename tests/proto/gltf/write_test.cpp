@@ -86,6 +86,33 @@ TEST(WriteTriangles, makes_many_indices_late_and_the_same) {
   EXPECT_EQ(embedded["bufferViews"], glb.json["bufferViews"]);
 }
 
+// What a stream keeps of the base mesh is more than a level 0 or 1 of it has indices.
+TEST(WriteTriangles, makes_no_indices_late_where_that_takes_more_memory) {
+  constexpr std::uint32_t kWide = 260;  // more vertices than 16 bits hold
+  std::vector<float> points;
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t j = 0; j <= kWide; ++j)
+    for (std::uint32_t i = 0; i <= kWide; ++i)
+      points.insert(points.end(), {static_cast<float>(i), static_cast<float>(j), 0});
+  for (std::uint32_t j = 0; j < kWide; ++j)
+    for (std::uint32_t i = 0; i < kWide; ++i) {
+      const std::uint32_t a = j * (kWide + 1) + i, d = a + kWide + 1;
+      corners.insert(corners.end(), {a, a + 1, d + 1, a, d + 1, d});
+    }
+  GltfBuilder builder;
+  builder.mesh({{"POSITION", builder.values(points, 3)}}, builder.values(corners, 1));
+  for (const Index level : {0u, 1u, 2u}) {
+    Options options = at_level(level);
+    options.format = Format::glb;
+    server::tasks::Phases phases;
+    const auto payload = server::tasks::refine(must_read(builder.glb(), options), {}, {}, phases);
+    ASSERT_TRUE(payload.ok());
+    std::size_t made = 0;
+    for (const proto::Chunk& chunk : payload->chunks) made += chunk.maker != nullptr;
+    EXPECT_EQ(made, level < 2 ? 0u : 1u) << level;
+  }
+}
+
 TEST(WriteTriangles, gives_both_sides_of_a_seam_the_same_positions) {
   const ParsedGlb glb = refined(seamed_octahedron(), at_level(2));
   // Every vertex on the equator of one half is one of the other half, to the bit.
