@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
+#include "core/base/all_finite.h"
 #include "core/base/pace.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/repair.h"
-#include "core/mesh/scan.h"
 #include "proto/client_text.h"
 #include "proto/json/locate.h"
 #include "proto/suggest.h"
@@ -173,7 +173,7 @@ Result<void> check_fits(std::span<const double> values, const Path& where, const
   for (std::size_t begin = 0; begin < values.size(); begin += kBlock) {
     if (auto stop = budget.poll()) return *stop;
     const auto block = values.subspan(begin, std::min(kBlock, values.size() - begin));
-    if (all_within(block, FLT_MAX)) continue;
+    if (all_up_to(block, static_cast<double>(FLT_MAX))) continue;
     const auto bad = std::ranges::find_if(block, [](double x) { return std::fabs(x) > FLT_MAX; });
     if (bad == block.end()) continue;
     Path place = where;

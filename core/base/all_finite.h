@@ -2,6 +2,7 @@
 // Whether many numbers are all of a size that is allowed.
 
 #include <bit>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -21,6 +22,12 @@ bool all_below(std::span<const Real> values, Real limit) {
   Bits carries = 0;
   for (const Real value : values) carries |= (std::bit_cast<Bits>(value) & (kSign - 1)) + lacking;
   return (carries & kSign) == 0;
+}
+
+// |x| <= largest for all of them, and no NaN. `largest` is finite.
+template <std::floating_point Real>
+bool all_up_to(std::span<const Real> values, Real largest) {
+  return all_below(values, std::nextafter(largest, std::numeric_limits<Real>::infinity()));
 }
 
 // Neither NaN nor an infinity among them.

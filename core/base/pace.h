@@ -33,6 +33,9 @@ class Pace {
     return budget_ != nullptr ? *budget_ : unlimited;
   }
 
+  // Threads that this work may be shared out to: one for who is one of several already.
+  Index threads() const { return worker_ == nullptr && budget_ != nullptr ? budget_->threads() : 1; }
+
   // Call before `steps` more steps. Throws Stopped when there is no more to spend.
   void spend(Count steps) const {
     if (worker_ != nullptr) {

@@ -24,7 +24,7 @@ bool fits(std::span<const double> control, const Pace& pace) {
   const double largest = static_cast<double>(std::numeric_limits<Real>::max());
   bool all = true;
   pace.in_blocks(control.size(), [&](Count begin, Count end) {
-    all = all && all_below(control.subspan(begin, end - begin), std::nextafter(largest, HUGE_VAL));
+    all = all && all_up_to(control.subspan(begin, end - begin), largest);
   });
   return all;
 }

@@ -4,28 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstring>
 #include <span>
 
-#include "core/base/all_finite.h"
 #include "core/base/index.h"
 #include "core/base/pace.h"
 
 namespace subdivd {
-
-// Whether no value is larger than `limit` in magnitude. Values must be finite.
-inline bool all_within(std::span<const double> values, double limit) {
-  constexpr std::size_t kLanes = 8;
-  std::array<double, kLanes> largest{};
-  std::size_t i = 0;
-  for (; i + kLanes <= values.size(); i += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const double size = std::fabs(values[i + lane]);
-      largest[lane] = largest[lane] < size ? size : largest[lane];
-    }
-  for (; i < values.size(); ++i) largest[0] = std::max(largest[0], std::fabs(values[i]));
-  return std::all_of(largest.begin(), largest.end(), [&](double size) { return size <= limit; });
-}
 
 inline bool all_below(std::span<const Index> indices, Count limit) {
   constexpr Count kSigned = Count{1} << 31;
@@ -41,18 +26,28 @@ inline bool all_below(std::span<const Index> indices, Count limit) {
 
 // Whether one of the triangles (3 indices each) names a vertex twice.
 inline bool any_repeats(std::span<const Index> triangles) {
-  // Four triangles at a time: every index against the one behind it and the one after that, where these are
-  // of the same triangle.
+  // Four triangles, three vectors, at a time: every index against the one behind it and the one after that,
+  // where these are of the same triangle. Vectors by name: compilers do not find them here.
+  using Four [[gnu::vector_size(16)]] = Index;
   constexpr std::size_t kBlock = 12;
-  constexpr std::array<Index, kBlock> kNext{~0u, ~0u, 0, ~0u, ~0u, 0, ~0u, ~0u, 0, ~0u, ~0u, 0};
-  constexpr std::array<Index, kBlock> kLast{~0u, 0, 0, ~0u, 0, 0, ~0u, 0, 0, ~0u, 0, 0};
-  std::array<Index, kBlock> any{};
+  constexpr Index kYes = ~Index{0};
+  constexpr std::array<Four, 3> kNext{{{kYes, kYes, 0, kYes}, {kYes, 0, kYes, kYes}, {0, kYes, kYes, 0}}};
+  constexpr std::array<Four, 3> kLast{{{kYes, 0, 0, kYes}, {0, 0, kYes, 0}, {0, kYes, 0, 0}}};
+  const auto four_at = [](const Index* at) {
+    Four four;
+    std::memcpy(&four, at, sizeof four);
+    return four;
+  };
+  Four any{};
   const Index* at = triangles.data();
   std::size_t left = triangles.size();
   for (; left >= kBlock + 2; left -= kBlock, at += kBlock)
-    for (std::size_t k = 0; k < kBlock; ++k)
-      any[k] |= ((at[k] == at[k + 1] ? ~0u : 0u) & kNext[k]) | ((at[k] == at[k + 2] ? ~0u : 0u) & kLast[k]);
-  bool found = std::any_of(any.begin(), any.end(), [](Index bits) { return bits != 0; });
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Four own = four_at(at + 4 * k);
+      any |= (Four(own == four_at(at + 4 * k + 1)) & kNext[k]) |
+             (Four(own == four_at(at + 4 * k + 2)) & kLast[k]);
+    }
+  bool found = (any[0] | any[1] | any[2] | any[3]) != 0;
   for (; left >= 3; left -= 3, at += 3) found |= at[0] == at[1] || at[1] == at[2] || at[2] == at[0];
   return found;
 }

@@ -1,6 +1,7 @@
 #include "core/mesh/topology.h"
 
 #include <cstdint>
+#include <utility>
 
 #include "core/mesh/scan.h"
 
@@ -35,11 +36,11 @@ Topology<Faces>::Topology(Index vertex_count, Faces faces, Buffer<Index> half_ed
 }
 
 // Sets the lengths of the rows of corners; returns the lowest corner at every vertex, kNoIndex where there is
-// none, and once more behind the last vertex.
+// none.
 template <class Faces>
 Buffer<Index> Topology<Faces>::count_corners(const Pace& pace) {
   Buffer<Index> first;
-  pace.fill(first, Count{vertex_count_} + 1, kNoIndex);
+  pace.fill(first, vertex_count_, kNoIndex);
   pace.fill(vertex_corner_offsets_, Count{vertex_count_} + 1, 0);
   pace.in_blocks(corner_vertices().size(), [&](Count begin, Count end) {
     const Count size = corner_vertices().size();  // from the last half-edge to the first
@@ -192,14 +193,31 @@ class Topology<Faces>::Walk {
   Index start_, at_, edge_;
 };
 
-// Writes the rows of all vertices whose faces are one closed fan, and finds those where several meet.
+// Below this a helper is awake when the work is done.
+constexpr Index kVerticesWorthHelp = Index{1} << 15;
+
+// Writes the rows of all vertices whose faces are one closed fan, and finds those where several meet. Every
+// vertex has rows of its own: they may be shared out.
 template <class Faces>
 void Topology<Faces>::go_round_vertices(std::span<const Index> first_corners, const Pace& pace) {
   vertex_corners_.resize(corner_vertices().size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
+  if (pace.threads() == 1 || vertex_count_ < kVerticesWorthHelp)
+    return go_round_vertices(0, vertex_count_, first_corners, pace);
+  const auto done = Team::run(pace.threads(), pace.budget(), [&](Worker worker) {
+    const Range share = worker.share(vertex_count_);
+    go_round_vertices(static_cast<Index>(share.begin), static_cast<Index>(share.end), first_corners,
+                      Pace(worker));
+  });
+  if (!done) throw Stopped{done.error()};
+}
+
+template <class Faces>
+void Topology<Faces>::go_round_vertices(Index begin, Index end, std::span<const Index> first_corners,
+                                        const Pace& pace) {
   const auto corners_before = [&](Index v) { return vertex_corner_offsets_[v]; };
-  Index next_vertex = 0, next_corner = 0;  // at either of which the budget is polled again
-  for (Index v = 0; v < vertex_count_; ++v) {
+  Index next_vertex = begin, next_corner = 0;  // at either of which the budget is polled again
+  for (Index v = begin; v < end; ++v) {
     if (v >= next_vertex || corners_before(v) >= next_corner) {
       pace.spend(Pace::kBlock);
       next_vertex = v + static_cast<Index>(Pace::kBlock);
@@ -211,7 +229,7 @@ void Topology<Faces>::go_round_vertices(std::span<const Index> first_corners, co
       if (!one.go_on(pace)) non_manifold_vertices_[v] = 1;
       continue;
     }
-    if (first_corners[v + 1] != kNoIndex) {
+    if (v + 1 < end && first_corners[v + 1] != kNoIndex) {
       Walk other(*this, v + 1, first_corners[v + 1]);
       if (other.is_short() && Walk::go_together(one, other) && one.go_on() && other.go_on()) {
         ++v;

@@ -29,7 +29,8 @@ void append_word(std::string& out, Count word) {
 
 // Indices of fewer are written before the answer is sent: a request may have a hundred thousand small meshes.
 constexpr Count kWorthMaking = Count{1} << 18;
-constexpr Count kPieceIndices = Count{1} << 16;  // what the processor's cache holds
+constexpr Count kPieceIndices = Count{160}
+                                << 10;  // what the processor's cache holds, and what is sent at once
 
 // A refined mesh's indices, little-endian, 32 bits each.
 class IndexMaker final : public ByteMaker {

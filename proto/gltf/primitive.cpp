@@ -14,19 +14,6 @@
 namespace subdivd::proto::gltf {
 namespace {
 
-constexpr std::size_t kPiece = 16384;  // elements between two looks at the clock
-
-// Calls use(piece) for one piece after the other, until it or the budget says stop. False: `use` did.
-template <class T, class F>
-Result<bool> for_pieces(std::span<T> values, Work& work, const F& use) {
-  for (; !values.empty(); values = values.subspan(std::min(values.size(), kPiece))) {
-    const auto piece = values.first(std::min(values.size(), kPiece));
-    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
-    if (!use(piece)) return false;
-  }
-  return true;
-}
-
 Result<std::vector<Index>> read_corners(const Asset& asset, const Json& primitive, Index vertex_count,
                                         const Place& place) {
   const Json* reference = primitive.find("indices");

@@ -169,12 +169,17 @@ Result<std::vector<Index>> MeshReader::corner_ids(const Welded& weld) const {
   std::vector<Index> ids;
   ids.reserve(count);
   for (Count i = 0; i < parts_.size(); ++i) {
-    const Index* const id = weld.id.data() + parts_[i].first_vertex;
     if (auto stop = work_.spend(16)) return *std::move(stop);
-    for (const Index corner : renders[i].indices) {
-      if (auto stop = work_.spend(1)) return *std::move(stop);
-      ids.push_back(id[corner]);
-    }
+    const Index* const id = weld.id.data() + parts_[i].first_vertex;
+    const bool is_vertex = weld.all_differ() && parts_[i].first_vertex == 0;
+    const auto done = for_pieces(std::span(renders[i].indices), work_, [&](std::span<const Index> piece) {
+      const std::size_t begin = ids.size();
+      ids.insert(ids.end(), piece.begin(), piece.end());
+      if (!is_vertex)
+        for (Index& corner : std::span(ids).subspan(begin)) corner = id[corner];
+      return true;
+    });
+    if (!done) return done.error();
   }
   return ids;
 }

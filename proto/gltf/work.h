@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/base/budget.h"
@@ -86,6 +87,18 @@ Result<void> grow(Vector& values, Count size, Work& work, typename Vector::value
     if (auto stop = work.spend_bytes(4 * kPiece * sizeof(value))) return *std::move(stop);
   }
   return {};
+}
+
+// Calls use(piece) for one piece after the other, until it or the budget says stop. False: `use` did.
+template <class T, class F>
+Result<bool> for_pieces(std::span<T> values, Work& work, const F& use) {
+  constexpr std::size_t kPiece = 16384;  // elements between two looks at the clock
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), kPiece))) {
+    const auto piece = values.first(std::min(values.size(), kPiece));
+    if (auto stop = work.spend(piece.size() / 4)) return *std::move(stop);
+    if (!use(piece)) return false;
+  }
+  return true;
 }
 
 // What the allocator adds to a block in the mean: 8 bytes and a rounding up to 16. See growing_memory.h.

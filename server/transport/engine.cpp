@@ -13,7 +13,7 @@
 namespace subdivd::server {
 namespace {
 
-constexpr std::size_t kSendBytes = 1 << 20;
+constexpr std::size_t kSendBytes = 640 * 1024;
 // A small body travels with its head.
 constexpr std::size_t kJoinedBytes = 16 * 1024;
 

@@ -43,5 +43,15 @@ TYPED_TEST(AllFinite, all_below_is_exact_at_the_limit) {
   EXPECT_FALSE(all_below<TypeParam>(std::vector<TypeParam>{-limit}, limit));
 }
 
+TYPED_TEST(AllFinite, all_up_to_takes_the_limit_and_nothing_beyond_it) {
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const TypeParam limit : {TypeParam{3}, Limits::max()}) {
+    EXPECT_TRUE(all_up_to<TypeParam>(std::vector<TypeParam>{limit, -limit, 0}, limit));
+    const TypeParam beyond = std::nextafter(limit, Limits::infinity());
+    for (const TypeParam bad : {beyond, -beyond, Limits::quiet_NaN()})
+      EXPECT_FALSE(all_up_to<TypeParam>(std::vector<TypeParam>{0, bad}, limit)) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace subdivd

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 namespace subdivd {
@@ -64,16 +63,6 @@ TEST(Scan, for_each_set_goes_through_what_is_not_zero_in_order) {
   std::vector<std::size_t> met;
   for_each_set(std::span<const unsigned char>(values), [&](std::size_t k) { met.push_back(k); });
   EXPECT_EQ(met, set);
-}
-
-TEST(Scan, finds_numbers_that_are_not_finite) {
-  std::vector<double> values(100, std::numeric_limits<double>::max());
-  EXPECT_TRUE(all_finite(std::span<const double>(values)));
-  for (const double bad : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                           std::numeric_limits<double>::quiet_NaN()}) {
-    values[37] = bad;
-    EXPECT_FALSE(all_finite(std::span<const double>(values)));
-  }
 }
 
 }  // namespace

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <random>
+#include <vector>
 
+#include "core/base/thread_pool.h"
+#include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {
@@ -115,6 +120,67 @@ TEST(Topology, corners_and_edges_go_round_a_manifold_vertex) {
       // Only the spokes lead to point 0, and the rim closes: every edge was found once.
       EXPECT_EQ(topology.edge_count(), 2 * rim - !closed);
     }
+}
+
+// A grid of 48,400 points, whose rows are worth sharing out, with a bow tie, a hub of two thousand corners and
+// a hole.
+std::vector<Index> large_and_uneven() {
+  std::vector<Index> triangles = shapes::grid(219, 219).face_vertex_indices;
+  std::vector<Index> kept;
+  for (std::size_t f = 0; f < triangles.size(); f += 3) {
+    const std::array<Index, 3> face{triangles[f], triangles[f + 1], triangles[f + 2]};
+    if (std::ranges::count(face, 24'200u) != 0) continue;
+    for (const Index v : face) kept.push_back(v == 40'000 ? 300 : v);
+  }
+  for (Index k = 0; k < 2'000; ++k) kept.insert(kept.end(), {24'200, 48'400 + k, 48'400 + (k + 1) % 2'000});
+  return kept;
+}
+
+TEST(Topology, is_the_same_however_many_threads_go_round_its_vertices) {
+  const std::vector<Index> triangles = large_and_uneven();
+  const Index vertices = 48'400 + 2'000;
+  const Topology<Triangles> expected(vertices, Triangles(triangles));
+  ASSERT_TRUE(expected.is_non_manifold_vertex(300));
+  ASSERT_EQ(expected.vertex_corners(24'200).size(), 2'000u);
+  for (const Index helpers : {1u, 2u, 5u}) {
+    ThreadPool pool(helpers);
+    Budget budget;
+    budget.helpers = &pool;
+    const auto built = Topology<Triangles>::build(vertices, Triangles(triangles), budget);
+    ASSERT_TRUE(built.ok());
+    for (Index v = 0; v < vertices; ++v) {
+      ASSERT_TRUE(std::ranges::equal(built->vertex_corners(v), expected.vertex_corners(v))) << v;
+      ASSERT_TRUE(std::ranges::equal(built->vertex_edges(v), expected.vertex_edges(v))) << v;
+      ASSERT_EQ(built->is_non_manifold_vertex(v), expected.is_non_manifold_vertex(v)) << v;
+    }
+  }
+}
+
+// Nobody waits any more from when the first helper is asked.
+class HelpersOfTheImpatient final : public Helpers {
+ public:
+  Index most() const override { return pool_.most(); }
+  Index start(Index most, Job& job) override {
+    gone = true;
+    return pool_.start(most, job);
+  }
+  void finish(Job& job) override { pool_.finish(job); }
+
+  std::atomic<bool> gone{false};
+
+ private:
+  ThreadPool pool_{2};
+};
+
+TEST(Topology, stops_while_several_threads_go_round_its_vertices) {
+  HelpersOfTheImpatient helpers;
+  Budget budget;
+  budget.helpers = &helpers;
+  budget.cancelled = &helpers.gone;
+  const auto built = Topology<Triangles>::build(50'400, Triangles(large_and_uneven()), budget);
+  ASSERT_TRUE(helpers.gone);
+  ASSERT_FALSE(built.ok());
+  EXPECT_EQ(built.error().code, ErrorCode::cancelled);
 }
 
 TEST(Topology, edges_between_hubs_are_found_once) {
