@@ -42,8 +42,14 @@ class FaceWriter {
     return write_rows(FaceNumbers(connectivity_, n_, face), begin, end, out);
   }
 
-  void write(Index face, Index* out) {
+  // Where a face has four triangles a call takes half as long as writing them.
+  [[gnu::always_inline]] void write(Index face, Index* out) const {
     if (n_ == 2) return write_four(face, out);
+    write_more(face, out);
+  }
+
+ private:
+  [[gnu::noinline]] void write_more(Index face, Index* out) const {
     const FaceNumbers numbers(connectivity_, n_, face);
     switch (n_) {
       case 4:
@@ -55,7 +61,6 @@ class FaceWriter {
     }
   }
 
- private:
   // One point an edge: it makes no difference from which end they count.
   void write_four(Index face, Index* out) const {
     const Index *v = connectivity_.corner_vertices().data() + Count{3} * face,
