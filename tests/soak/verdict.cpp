@@ -19,8 +19,9 @@ constexpr std::size_t kRows = 20;  // of the printed course
 constexpr std::ptrdiff_t kFewestSamples = 10;  // of a third; in less time nothing has become warm
 constexpr double kSwing = 0.10;
 constexpr std::uint64_t kSwingBytes = 16 * kMiB;
-// What an allocator keeps of many threads' pieces once they are all free.
-constexpr std::uint64_t kKeptBytes = 64 * kMiB;
+// What an allocator keeps of many threads' pieces once they are all free and the daemon, which first keeps more
+// for the next request, has given it back: some seconds later.
+constexpr std::uint64_t kKeptBytes = 32 * kMiB;
 // The limit is on what is predicted and taken; threads' stacks, sockets' copies and the allocator's rounding
 // are beside it.
 constexpr double kOverLimit = 1.15;
@@ -76,7 +77,9 @@ Rest settle(Daemon& daemon, const Rest* start) {
     now = {daemon.footprint(), daemon.counters()};
     const bool kernel = start == nullptr || (now.footprint.descriptors <= start->footprint.descriptors &&
                                              now.footprint.threads <= start->footprint.threads);
-    if (kernel && now.counters && at_rest(*now.counters)) break;
+    const bool memory =
+        start == nullptr || now.footprint.resident <= start->footprint.resident + kKeptBytes;
+    if (kernel && memory && now.counters && at_rest(*now.counters)) break;
   } while (Clock::now() < deadline && daemon.alive());
   return now;
 }
