@@ -24,6 +24,10 @@ enum class BoundaryInterpolation {
 // [USD faceVaryingLinearInterpolation], from least to most linear.
 enum class FaceVaryingInterpolation { none, corners_only, corners_plus1, corners_plus2, boundaries, all };
 
+// What an edge beside triangles takes of its faces under Catmull and Clark's scheme: as much as of other faces, or
+// more, so that triangles among quads show less.  [USD triangleSubdivisionRule]
+enum class TriangleRule { catmull_clark, smooth };
+
 // How the sharpness of a semi-sharp crease decays along the levels.  [DeRose98, section 4; RenderMan]
 enum class CreaseMethod { uniform, chaikin };
 

@@ -73,7 +73,8 @@ std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> 
   return found;
 }
 
-std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<const VertexPair> pairs,
+template <class Faces>
+std::vector<Index> edges_between(const Topology<Faces>& topology, std::span<const VertexPair> pairs,
                                  const Pace& pace) {
   std::vector<Index> found;
   pace.fill(found, pairs.size(), kNoIndex);
@@ -95,6 +96,12 @@ std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<
   }
   return found;
 }
+
+template std::vector<Index> edges_between(const Topology<Triangles>&, std::span<const VertexPair>,
+                                          const Pace&);
+template std::vector<Index> edges_between(const Topology<Quads>&, std::span<const VertexPair>, const Pace&);
+template std::vector<Index> edges_between(const Topology<Polygons>&, std::span<const VertexPair>,
+                                          const Pace&);
 
 std::vector<VertexPair> crease_edges(const Cage& cage, const Pace& pace) {
   std::vector<VertexPair> pairs;

@@ -33,7 +33,8 @@ std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> 
                                      std::span<const VertexPair> pairs, const Pace& pace);
 
 // The edge between the two vertices of each pair; kNoIndex: there is none. Linear, whatever the pairs are.
-std::vector<Index> edges_between(const Topology<Triangles>& topology, std::span<const VertexPair> pairs,
+template <class Faces>
+std::vector<Index> edges_between(const Topology<Faces>& topology, std::span<const VertexPair> pairs,
                                  const Pace& pace);
 
 // Those that f(position, ...) above is called for.

@@ -18,6 +18,7 @@ struct EdgeRing {
   Index face_count = 2;
   float sharpness = 0;
   float child_sharpness[2] = {0, 0};  // of its two halves, one level on
+  Index triangle_count = 0;           // of its faces; set where faces may have any size
 };
 
 //     e2---e1       A vertex v and the other ends e_k of its edges.

@@ -11,7 +11,8 @@ namespace {
 float clamped(float s) { return std::min(s, kInfiniteSharpness); }
 
 // Sharpness given by the caller alone.
-std::vector<float> tagged_edges(const Cage& cage, const Topology<Triangles>& topology, const Pace& pace) {
+template <class Faces>
+std::vector<float> tagged_edges(const Cage& cage, const Topology<Faces>& topology, const Pace& pace) {
   std::vector<float> edges;
   pace.fill(edges, topology.edge_count(), 0.0f);
   if (cage.crease_lengths.empty()) return edges;
@@ -34,7 +35,8 @@ DecaySum sum_of(std::span<const float> around, const Pace& pace) {
   return all;
 }
 
-bool inside_non_manifold_crease(const Topology<Triangles>& topology, Index v, const Pace& pace) {
+template <class Faces>
+bool inside_non_manifold_crease(const Topology<Faces>& topology, Index v, const Pace& pace) {
   Index non_manifold = 0, boundary = 0;
   for (Index e : topology.vertex_edges(v)) {
     pace.spend(1);
@@ -106,7 +108,8 @@ float fractional_weight(CreaseMethod method, float parent_vertex, float child_ve
   return count == 0 ? 0.0f : std::min(sum / static_cast<float>(count), 1.0f);
 }
 
-Sharpness control_sharpness(const Cage& cage, const Topology<Triangles>& topology, const Pace& pace) {
+template <class Faces>
+Sharpness control_sharpness(const Cage& cage, const Topology<Faces>& topology, const Pace& pace) {
   Sharpness result{tagged_edges(cage, topology, pace), {}};
   pace.fill(result.vertices, topology.vertex_count(), 0.0f);
   const bool pin_corners = cage.interpolate_boundary == BoundaryInterpolation::edge_and_corner;
@@ -138,8 +141,8 @@ Sharpness control_sharpness(const Cage& cage, const Topology<Triangles>& topolog
   return result;
 }
 
-std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Triangles>& topology,
-                                      const Pace& pace) {
+template <class Faces>
+std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Faces>& topology, const Pace& pace) {
   std::vector<unsigned char> holes;
   pace.fill(holes, topology.face_count(), 0);
   pace.for_each(cage.hole_indices.size(), [&](std::size_t k) { holes[cage.hole_indices[k]] = 1; });
@@ -156,9 +159,18 @@ std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Triangles
       },
       pace);
   pace.for_each(topology.face_count(), [&](Index f) {
-    for (Index k = 0; k < 3; ++k) holes[f] |= open[topology.corner_vertex(3 * f + k)];
+    const Faces& faces = topology.faces();
+    for (Index h = faces.begin(f); h < faces.begin(f + 1); ++h) holes[f] |= open[topology.corner_vertex(h)];
   });
   return holes;
 }
+
+#define SUBDIVD_FOR_FACES(Faces)                                                          \
+  template Sharpness control_sharpness(const Cage&, const Topology<Faces>&, const Pace&); \
+  template std::vector<unsigned char> hole_flags(const Cage&, const Topology<Faces>&, const Pace&);
+SUBDIVD_FOR_FACES(Triangles)
+SUBDIVD_FOR_FACES(Quads)
+SUBDIVD_FOR_FACES(Polygons)
+#undef SUBDIVD_FOR_FACES
 
 }  // namespace subdivd

@@ -57,11 +57,13 @@ struct Sharpness {
 // and so are pinned border corners and non-manifold vertices, but for those inside a non-manifold crease
 // (exactly two non-manifold edges, no border, and more faces than edges). Creases along pairs that are no
 // edges are skipped.
-Sharpness control_sharpness(const Cage& cage, const Topology<Triangles>& topology, const Pace& pace = {});
+template <class Faces>
+Sharpness control_sharpness(const Cage& cage, const Topology<Faces>& topology, const Pace& pace = {});
 
 // 1 for faces that are not output: holeIndices, and with interpolateBoundary none every face at a border
 // vertex that has a border edge the caller did not make infinitely sharp.
-std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Triangles>& topology,
+template <class Faces>
+std::vector<unsigned char> hole_flags(const Cage& cage, const Topology<Faces>& topology,
                                       const Pace& pace = {});
 
 }  // namespace subdivd

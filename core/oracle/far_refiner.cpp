@@ -117,14 +117,17 @@ Result<FarRefiner> create_refiner(const Far::TopologyDescriptor& topology, Sdc::
   return refiner;
 }
 
-Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method) {
+Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method, Sdc::SchemeType scheme,
+                                Sdc::Options::TriangleSubdivision triangles) {
   Sdc::Options rules;  // Far's defaults are not OpenUSD's: set all of them
   rules.SetVtxBoundaryInterpolation(far_boundary(mesh.interpolate_boundary));
   rules.SetFVarLinearInterpolation(far_linear(mesh.face_varying_linear_interpolation));
   rules.SetCreasingMethod(crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
                                                                  : Sdc::Options::CREASE_UNIFORM);
+  rules.SetTriangleSubdivision(triangles);
 
-  const std::vector<int> counts(mesh.face_count(), 3);
+  const std::vector<int> counts = mesh.face_vertex_counts.empty() ? std::vector<int>(mesh.face_count(), 3)
+                                                                  : as_ints(mesh.face_vertex_counts);
   const std::vector<int> indices = as_ints(mesh.face_vertex_indices), holes = as_ints(mesh.hole_indices),
                          corners = as_ints(mesh.corner_indices);
   const CreaseEdges creases = crease_edges(mesh);
@@ -154,7 +157,7 @@ Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_met
   topology.numFVarChannels = size_of(channels);
   topology.fvarChannels = channels.data();
 
-  return create_refiner(topology, Sdc::SCHEME_LOOP, rules);
+  return create_refiner(topology, scheme, rules);
 }
 
 }  // namespace subdivd::oracle

@@ -15,7 +15,10 @@ namespace subdivd::oracle {
 using FarRefiner = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 
 // Not yet refined. Face-varying channels stand in the order of the face-varying primvars.
-Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method);
+Result<FarRefiner> make_refiner(
+    const ControlMesh& mesh, CreaseMethod crease_method,
+    OpenSubdiv::Sdc::SchemeType scheme = OpenSubdiv::Sdc::SCHEME_LOOP,
+    OpenSubdiv::Sdc::Options::TriangleSubdivision triangles = OpenSubdiv::Sdc::Options::TRI_SUB_CATMARK);
 
 // Of any topology; unsupported when Far complains.
 Result<FarRefiner> create_refiner(const OpenSubdiv::Far::TopologyDescriptor& topology,

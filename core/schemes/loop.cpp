@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/mesh/sharpness.h"
+#include "core/schemes/creased.h"
 
 namespace subdivd {
 namespace {
@@ -13,19 +13,6 @@ namespace {
 using std::numbers::pi;
 
 VertexMask smooth_mask(double beta, Index n) { return {1 - n * beta, beta, 0, {0, 0}}; }
-
-// The first and last sharp edge of the ring: for a crease, its two.
-VertexMask crease_mask(std::span<const float> edge_sharpness) {
-  VertexMask mask{3.0 / 4, 0, 1.0 / 8, {0, 0}};
-  bool first = true;
-  for (std::size_t k = 0; k < edge_sharpness.size(); ++k)
-    if (is_sharp(edge_sharpness[k])) {
-      if (first) mask.crease_ends[0] = static_cast<Index>(k);
-      mask.crease_ends[1] = static_cast<Index>(k);
-      first = false;
-    }
-  return mask;
-}
 
 double sum_of(const RingMask& mask) {
   double sum = mask.self;
@@ -62,45 +49,11 @@ double Loop::beta(Index n) const {
 }
 
 EdgeMask Loop::edge_mask(const EdgeRing& ring) const {
-  const EdgeMask smooth{3.0 / 8, 1.0 / 8 * 2 / std::max<Index>(ring.face_count, 1)};
-  const EdgeMask crease{1.0 / 2, 0};
-  if (!is_sharp(ring.sharpness)) return smooth;
-  if (is_sharp(ring.child_sharpness[0]) && is_sharp(ring.child_sharpness[1])) return crease;
-  // Under Chaikin's rule an edge of sharpness above 1 may have a half that runs out at once: the blend is
-  // then beyond the crease, 1.2 crease - 0.2 smooth. So does Far 3.5, the reference everybody has, though its
-  // comment says that it clamps; under the uniform method this cannot happen.
-  const double s = ring.sharpness;
-  return {s * crease.end + (1 - s) * smooth.end, (1 - s) * smooth.opposite};
+  return creased_edge({3.0 / 8, 1.0 / 8 * 2 / std::max<Index>(ring.face_count, 1)}, ring);
 }
 
 VertexMask Loop::vertex_mask(const VertexRing& ring) const {
-  if (ring.face_count == 0) return {};
-  auto mask_of = [&](Rule rule, std::span<const float> edges) {
-    switch (rule) {
-      case Rule::smooth:
-      case Rule::dart:
-        return smooth_mask(beta(ring.face_count), ring.face_count);
-      case Rule::crease:
-        return crease_mask(edges);
-      case Rule::corner:
-        break;
-    }
-    return VertexMask{};
-  };
-  const Rule parent_rule = rule_of(ring.sharpness, ring.edge_sharpness);
-  const VertexMask parent = mask_of(parent_rule, ring.edge_sharpness);
-  if (parent_rule == Rule::smooth || parent_rule == Rule::dart) return parent;
-  const Rule child_rule = rule_of(ring.child_sharpness, ring.child_edge_sharpness);
-  if (child_rule == parent_rule) return parent;
-  const VertexMask child = mask_of(child_rule, ring.child_edge_sharpness);
-  const double w = fractional_weight(ring.crease_method, ring.sharpness, ring.child_sharpness,
-                                     ring.edge_sharpness, ring.child_edge_sharpness);
-  // Sharpness only decays: at most one of the two masks has a crease pair of its own, or both share it.
-  const VertexMask& pair = parent.crease != 0 ? parent : child;
-  return {w * parent.self + (1 - w) * child.self,
-          w * parent.each + (1 - w) * child.each,
-          w * parent.crease + (1 - w) * child.crease,
-          {pair.crease_ends[0], pair.crease_ends[1]}};
+  return creased_vertex(ring, [&] { return smooth_mask(beta(ring.face_count), ring.face_count); });
 }
 
 VertexMask Loop::smooth_limit_mask(Index n) const {

@@ -7,16 +7,19 @@
 
 namespace subdivd {
 
-// Edge point = end (a + b) + opposite (o0 + o1 + ...).
+// Edge point = end (a + b) + opposite (o0 + o1 + ...) + face (f0 + f1 + ...), f_k being the points of its faces
+// where the split makes such.
 struct EdgeMask {
-  double end = 0.5, opposite = 0;
+  double end = 0.5, opposite = 0, face = 0;
 };
 
 // Vertex point or limit point = self v + each (e_0 + ... + e_{n-1}) + crease (e_a + e_b), a and b being the
-// crease's edges in the ring's order. The crease pair is (0, 0) where crease is 0.
+// crease's edges in the ring's order, + face (f_0 + f_1 + ...) as above. The crease pair is (0, 0) where crease
+// is 0.
 struct VertexMask {
   double self = 1, each = 0, crease = 0;
   Index crease_ends[2] = {0, 0};
+  double face = 0;
 };
 
 // One weight per ring edge, for masks that tell the edges apart.

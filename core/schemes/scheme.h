@@ -14,7 +14,10 @@
 namespace subdivd {
 
 // How a face splits: each split has its numbering in core/lattice and an engine in core/engine.
-enum class Split { triangles };  // a triangle into four
+enum class Split {
+  triangles,  // a triangle into four
+  quads,      // a face of n corners into n quads that meet at a point of its own
+};
 
 // The numbers of vertices that a face of a control mesh may have, both ends included.
 struct FaceSizes {

@@ -85,8 +85,8 @@ class Refinement {
       for (Values<Real>& set : sets)
         set.values = apply<Real>(rows_of(scheme_, options_.crease_method, level_, set.linear, pace),
                                  set.values, set.width, pace);
-      level_ = next_mesh != nullptr ? next_level(level_, *next_mesh, pace)
-                                    : next_level(level_, options_.crease_method, pace);
+      level_ = next_mesh != nullptr ? next_level(level_, Split::triangles, *next_mesh, pace)
+                                    : next_level(level_, Split::triangles, options_.crease_method, pace);
     });
   }
 

@@ -33,15 +33,12 @@ Level first_level(Adjacency faces, Sharpness sharpness, CreaseMethod method, con
 Level first_level(Adjacency faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
                   const Pace& pace = {});
 
-// One step of Split::triangles, every face being a triangle. The vertex point of v has the number v, the edge
-// point of e the number V + e; face f has the children 4 f + k at its corners k and 4 f + 3 between; edge e
-// the halves 2 e, at its lower end, and 2 e + 1, and inside face f, across its corner k, lies edge 2 E + 3 f
-// + k.
-Level next_level(const Level& level, CreaseMethod method, const Pace& pace = {});
-Level next_level(const Level& channel, const Level& next_mesh, const Pace& pace = {});
+// One step; split.h says how its points, edges and faces are numbered.
+Level next_level(const Level& level, Split split, CreaseMethod method, const Pace& pace = {});
+Level next_level(const Level& channel, Split split, const Level& next_mesh, const Pace& pace = {});
 
-// The values of that step's vertices from those of `level`'s. `linear`: midpoints, whatever the level's own
-// rules.
+// The values of that step's vertices from those of `level`'s. `linear`: midpoints, and means of faces where they
+// get points, whatever the level's own rules.
 SparseRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
                    const Pace& pace = {});
 

@@ -28,7 +28,8 @@ TEST(PlainRows, sum_to_one_for_every_scheme) {
     for_each_scheme(AllSchemes(), [&](const auto& scheme) {
       SCOPED_TRACE(name);
       Level level = base_level(mesh);
-      for (int depth = 0; depth < 2; ++depth, level = next_level(level, CreaseMethod::uniform)) {
+      for (int depth = 0; depth < 2;
+           ++depth, level = next_level(level, Split::triangles, CreaseMethod::uniform)) {
         const SparseRows rows = rows_of(scheme, CreaseMethod::uniform, level, false);
         ASSERT_EQ(rows.row_count(), level.faces.vertex_count() + level.faces.edge_count());
         for (Count r = 0; r < rows.row_count(); ++r) {
@@ -79,7 +80,7 @@ TEST(PlainRows, application_stops_within_a_row) {
 TEST(PlainLevel, keeps_every_edge_that_the_step_before_made) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     SCOPED_TRACE(name);
-    const Level level = base_level(mesh), next = next_level(level, CreaseMethod::uniform);
+    const Level level = base_level(mesh), next = next_level(level, Split::triangles, CreaseMethod::uniform);
     ASSERT_EQ(next.faces.edge_count(), 2 * level.faces.edge_count() + level.faces.half_edge_count());
     for (Index h = 0; h < next.faces.half_edge_count(); ++h) {
       const auto ends = next.faces.edge_vertices(next.faces.half_edge_edge(h));
@@ -92,15 +93,16 @@ TEST(PlainLevel, keeps_every_edge_that_the_step_before_made) {
 
 TEST(PlainLevel, stops_when_the_budget_says_so) {
   Level level = base_level(shapes::icosahedron());
-  for (int depth = 0; depth < 4; ++depth) level = next_level(level, CreaseMethod::uniform);
+  for (int depth = 0; depth < 4; ++depth) level = next_level(level, Split::triangles, CreaseMethod::uniform);
   Budget budget;
   budget.deadline = Budget::Clock::now();
   const auto rows = stoppable(
       budget, [&](const Pace& pace) { rows_of(AnyScheme(), CreaseMethod::uniform, level, false, pace); });
   ASSERT_FALSE(rows.ok());
   EXPECT_EQ(rows.error().code, ErrorCode::deadline_exceeded);
-  EXPECT_FALSE(
-      stoppable(budget, [&](const Pace& pace) { next_level(level, CreaseMethod::uniform, pace); }).ok());
+  EXPECT_FALSE(stoppable(budget, [&](const Pace& pace) {
+                 next_level(level, Split::triangles, CreaseMethod::uniform, pace);
+               }).ok());
 }
 
 }  // namespace

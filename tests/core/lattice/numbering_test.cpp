@@ -54,7 +54,7 @@ TEST(Split, counts_are_those_of_refining_step_by_step) {
                                    Triangles(mesh.face_vertex_indices));
     plain::Level at = plain::first_level(base, control_sharpness(mesh, base), CreaseMethod::uniform);
     for (Index level = 1; level <= 3; ++level) {
-      at = plain::next_level(at, CreaseMethod::uniform);
+      at = plain::next_level(at, Split::triangles, CreaseMethod::uniform);
       const LevelCounts counts =
           refined_counts(base.vertex_count(), base.edge_count(), base.face_count(), level);
       EXPECT_EQ(counts.vertices, at.faces.vertex_count());
