@@ -92,7 +92,8 @@ std::vector<OptionSpec> options_of_all() { return {
   option<&Options::verify>(kBoolean, "verify", {}, "false", "meshes, curves, glTF",
     "Attach the report of the comparison with OpenSubdiv."),
   option<&Options::triangulate>(kBoolean, "triangulate", {}, "false", "meshes",
-    "Split faces of more than three vertices into fans from their first vertex instead of refusing them."),
+    "Split faces of more than three vertices instead of refusing them: into fans from their first vertex, by "
+    "clipping ears where a fan would fold a concave face over."),
 }; }
 
 std::vector<OptionSpec> options_of_kinds() { return {

@@ -116,20 +116,25 @@ Count checking_bytes(const ControlMesh& mesh) {
 Result<void> split_faces(ControlMesh& mesh, json::FaceHistory& history, const Budget& budget) {
   const std::vector<Index>& counts = mesh.face_vertex_counts;
   if (std::ranges::all_of(counts, [](Index count) { return count == 3; })) return {};
-  Count corners = 0;
-  for (const Index count : counts) corners += count;
+  Count corners = 0, largest = 0;
+  for (const Index count : counts) {
+    corners += count;
+    largest = std::max<Count>(largest, count);
+  }
   // Whatever else is wrong with them, triangulate() says so; where corners that are promised are not there it
   // makes nothing but a sum for every face.
   const bool fit = corners == mesh.face_vertex_indices.size();
   if (fit)
     if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
   const Count triangles = corners - std::min(corners, 2 * Count{counts.size()});
-  const Count bytes = fit ? rearranging_bytes(mesh, triangles) : (counts.size() + 1) * sizeof(Count);
+  const Count bytes = fit ? rearranging_bytes(mesh, triangles) + triangulating_bytes(largest)
+                          : (counts.size() + 1) * sizeof(Count);
   if (auto taken = budget.take_memory(bytes); !taken) return taken;
   if (fit) history.counts = counts;
-  Result<std::vector<Index>> split = triangulate(mesh, budget);
+  Result<Triangulation> split = triangulate(mesh, budget);
   if (!split) return std::move(split).error();
-  history.triangulated = std::move(*split);
+  history.triangulated = std::move(split->faces);
+  history.corners = std::move(split->corners);
   return {};
 }
 

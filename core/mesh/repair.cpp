@@ -7,6 +7,7 @@
 
 #include "core/base/pace.h"
 #include "core/mesh/creases.h"
+#include "core/mesh/ear_clipping.h"
 #include "core/mesh/scan.h"
 
 namespace subdivd {
@@ -218,25 +219,31 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
 
 }  // namespace
 
-Result<std::vector<Index>> triangulate(ControlMesh& mesh, const Budget& budget) {
-  return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<Index>> {
-    if (has_triangles_only(mesh, pace)) return std::vector<Index>{};
+Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) -> Result<Triangulation> {
+    if (has_triangles_only(mesh, pace)) return Triangulation{};
     const std::vector<Count> offsets = corner_offsets(mesh, pace);
     if (auto fine = check_larger_faces(mesh, offsets.back(), budget, pace); !fine)
       return std::move(fine).error();
     const Count triangles = offsets.back() - 2 * mesh.face_count();
-    std::vector<Index> faces, corners;
-    faces.reserve(triangles);
-    corners.reserve(3 * triangles);
-    for (Index f = 0; f + Count{1} < offsets.size(); ++f)
-      for (Count k = offsets[f] + 1; k + 1 < offsets[f + 1]; ++k) {
-        pace.spend(2);
-        faces.push_back(f);
-        for (Count corner : {offsets[f], k, k + 1}) corners.push_back(static_cast<Index>(corner));
-      }
-    rearrange(mesh, faces, corners, pace);
-    return faces;
+    Triangulation made;
+    made.faces.reserve(triangles);
+    made.corners.reserve(3 * triangles);
+    Count largest = 0;
+    pace.for_each(mesh.face_count(),
+                  [&](Count f) { largest = std::max(largest, offsets[f + 1] - offsets[f]); });
+    PolygonCutter cutter(mesh.points, largest);
+    for (Index f = 0; f + Count{1} < offsets.size(); ++f) {
+      const Count first = offsets[f], size = offsets[f + 1] - first, begin = made.corners.size();
+      cutter.cut(std::span(mesh.face_vertex_indices).subspan(first, size), pace, made.corners);
+      pace.for_each(size - 2, [&](Count) { made.faces.push_back(f); });
+      pace.for_each(3 * (size - 2), [&](Count k) { made.corners[begin + k] += static_cast<Index>(first); });
+    }
+    rearrange(mesh, made.faces, made.corners, pace);
+    return made;
   });
 }
+
+Count triangulating_bytes(Count corners) { return PolygonCutter::working_bytes(corners); }
 
 }  // namespace subdivd

@@ -10,8 +10,8 @@
 
 namespace subdivd {
 
-// Both return, for every face of the new mesh, the face of the old one that it came from; empty when nothing
-// was changed. Array lengths and indices are trusted no more than check() trusts them: a fault is returned as
+// Both say, for every face of the new mesh, from which face of the old one it came; empty when nothing was
+// changed. Array lengths and indices are trusted no more than check() trusts them: a fault is returned as
 // check() would report it, and the mesh is then unchanged. Stopped by the budget, they leave the mesh
 // in any state.
 
@@ -19,9 +19,19 @@ namespace subdivd {
 // holes go with them, and so do creases along edges that no other face has. Expects triangles.
 Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget = {});
 
-// Splits every face of k > 3 vertices into the fan (0,1,2), (0,2,3), ... from its first vertex; uniform
-// values, face-varying indices and holes follow. Refuses faces of fewer than 3 vertices. A mesh with render
-// meshes has only triangles and is left alone.
-Result<std::vector<Index>> triangulate(ControlMesh& mesh, const Budget& budget = {});
+struct Triangulation {
+  std::vector<Index> faces;    // the old face of every new one, ascending
+  std::vector<Index> corners;  // the old corner of every new one, counted over the whole mesh
+};
+
+// Splits every face of k > 3 vertices into k - 2 triangles: the fan (0,1,2), (0,2,3), ... from its first
+// vertex where that does not fold the face over, otherwise by clipping ears (core/mesh/ear_clipping.h);
+// uniform values, face-varying indices and holes follow. Refuses faces of fewer than 3 vertices. A mesh with
+// render meshes has only triangles and is left alone. Faces of k vertices of which r are not convex may take
+// k times r steps.
+Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget = {});
+
+// Bytes that it needs to cut a face of `corners` corners, beyond those of the arrays it makes.
+Count triangulating_bytes(Count corners);
 
 }  // namespace subdivd

@@ -20,16 +20,8 @@ Entry entry_of(std::uint64_t k, const std::vector<Index>& lengths) {
 
 // The corner as read of a present corner.
 std::uint64_t original_corner(std::uint64_t corner, const FaceHistory& history) {
-  std::uint64_t face = corner / 3, k = corner % 3;
-  if (!history.kept.empty()) face = history.kept[face];
-  if (history.triangulated.empty()) return 3 * face + k;
-  // Triangle j of a fan has the corners 0, j + 1, j + 2 of its face.
-  const Index original = history.triangulated[face];
-  const auto first = std::ranges::lower_bound(history.triangulated, original) - history.triangulated.begin();
-  const std::uint64_t j = face - static_cast<std::uint64_t>(first);
-  std::uint64_t offset = 0;
-  for (Index f = 0; f < original; ++f) offset += history.counts[f];
-  return offset + (k == 0 ? 0 : j + k);
+  if (!history.kept.empty()) corner = std::uint64_t{3} * history.kept[corner / 3] + corner % 3;
+  return history.triangulated.empty() ? corner : history.corners[corner];
 }
 
 void split(Path& where, std::uint64_t width) {

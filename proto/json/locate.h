@@ -17,6 +17,7 @@ namespace subdivd::proto::json {
 struct FaceHistory {
   std::vector<Index> counts;        // faceVertexCounts as read, when faces were changed; empty: triangles
   std::vector<Index> triangulated;  // face as read of every face after triangulate()
+  std::vector<Index> corners;       // corner as read of every corner after triangulate()
   std::vector<Index> kept;          // face after triangulate() of every face after drop_degenerate_faces()
   // Creases as read, when faces were dropped; some may have been cut.
   std::vector<Index> crease_indices, crease_lengths;

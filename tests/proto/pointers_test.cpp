@@ -124,6 +124,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"split_sharpness", at_top(kFlat, kQuad, R"("creaseIndices":[[0,1],[1,2]],
              "creaseSharpnesses":[1,-1])"),
              "out_of_range /creaseSharpnesses/1"},
+        // Not a fan: its triangles have the corners 0 1 3 and 1 2 3.
+        Case{"split_concave_corner",
+             at_top(R"("points":[[0,0,0],[4,0,0],[4,4,0],[3,1,0]],)", kQuad,
+                    primvar(R"("interpolation":"faceVarying","values":[1,2],"indices":[0,1,1,9])")),
+             "out_of_range /primvars/st/indices/3"},
         Case{"split_hole", at_top(kFlat, kQuad, R"("holeIndices":[0,1])"), "out_of_range /holeIndices/1"},
         Case{"split_hole_twice", at_top(kFlat, kQuad, R"("holeIndices":[0,0])"),
              "duplicate_tag /holeIndices/1"},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/shapes/build.h"
 
 namespace subdivd {
@@ -90,12 +92,48 @@ TEST(Triangulate, splits_faces_into_fans_from_their_first_vertex) {
                    {"id", Interpolation::uniform, 1, {10, 11}, {}}};
   const auto faces = triangulate(mesh);
   ASSERT_TRUE(faces.ok());
-  EXPECT_EQ(*faces, (std::vector<Index>{0, 1, 1, 1}));
+  EXPECT_EQ(faces->faces, (std::vector<Index>{0, 1, 1, 1}));
+  EXPECT_EQ(faces->corners, (std::vector<Index>{0, 1, 2, 3, 4, 5, 3, 5, 6, 3, 6, 7}));
   EXPECT_EQ(mesh.face_vertex_indices, (std::vector<Index>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}));
   EXPECT_EQ(mesh.hole_indices, (std::vector<Index>{1, 2, 3}));
   EXPECT_EQ(mesh.primvars[0].indices, (std::vector<Index>{0, 1, 2, 3, 4, 5, 3, 5, 6, 3, 6, 7}));
   EXPECT_EQ(mesh.primvars[1].indices, (std::vector<Index>{0, 1, 1, 1}));
   EXPECT_TRUE(mesh.check().ok());
+}
+
+// The fan from the first corner covered 4 x 4 / 2 and folded back over half of it.
+TEST(Triangulate, does_not_fold_a_concave_face_and_takes_everything_along) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 3, 1, 0, 0, 4, 0};
+  mesh.face_vertex_counts = {3, 4};
+  mesh.face_vertex_indices = {0, 3, 4, 0, 1, 2, 3};
+  mesh.hole_indices = {1};
+  mesh.primvars = {{"st", Interpolation::face_varying, 1, {0, 1, 2, 3, 4, 5, 6}, {}},
+                   {"id", Interpolation::uniform, 1, {10, 11}, {}}};
+  const auto made = triangulate(mesh);
+  ASSERT_TRUE(made.ok());
+  EXPECT_EQ(made->faces, (std::vector<Index>{0, 1, 1}));
+  EXPECT_EQ(made->corners, (std::vector<Index>{0, 1, 2, 3, 4, 6, 4, 5, 6}));
+  EXPECT_EQ(mesh.face_vertex_indices, (std::vector<Index>{0, 3, 4, 0, 1, 3, 1, 2, 3}));
+  EXPECT_EQ(mesh.hole_indices, (std::vector<Index>{1, 2}));
+  EXPECT_EQ(mesh.primvars[0].indices, (std::vector<Index>{0, 1, 2, 3, 4, 6, 4, 5, 6}));
+  EXPECT_EQ(mesh.primvars[1].indices, (std::vector<Index>{0, 1, 1}));
+  EXPECT_TRUE(mesh.check().ok());
+}
+
+TEST(Triangulate, leaves_it_to_check_to_say_that_a_point_does_not_exist_or_is_not_finite) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 3, 1, 0};
+  mesh.face_vertex_counts = {4};
+  mesh.face_vertex_indices = {0, 1, 2, 9};
+  ASSERT_TRUE(triangulate(mesh).ok());
+  EXPECT_EQ(mesh.check().error().code, ErrorCode::out_of_range);
+  mesh.face_vertex_counts = {4};
+  mesh.face_vertex_indices = {0, 1, 2, 3};
+  mesh.points[10] = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(triangulate(mesh).ok());
+  EXPECT_EQ(mesh.face_vertex_indices, (std::vector<Index>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(mesh.check().error().code, ErrorCode::not_finite);
 }
 
 TEST(Triangulate, refuses_a_face_of_two_vertices) {
