@@ -11,6 +11,7 @@
 #include "core/base/pace.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/repair.h"
+#include "core/mesh/winding.h"
 #include "proto/client_text.h"
 #include "proto/json/locate.h"
 #include "proto/suggest.h"
@@ -224,6 +225,15 @@ Error blame(const RefineRequest& request, Error error, const char* of, std::size
   return error;
 }
 
+// glTF knows counter-clockwise faces only: a mesh that is left-handed is made right-handed for it. In JSON it
+// keeps its faces, and the numbers of what is refined with them.
+Result<void> turn_for_gltf(RefineRequest& request, std::size_t i, const Budget& budget) {
+  if (i >= request.mesh_forms.size() || answer_format(request) == Format::json) return {};
+  Orientation& orientation = request.mesh_forms[i].orientation;
+  if (std::exchange(orientation, Orientation::right_handed) == Orientation::right_handed) return {};
+  return reverse_windings(request.meshes[i], budget);
+}
+
 Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
   json::FaceHistory history;
   Result<void> fine = repair_and_check(request, i, history, budget);
@@ -232,6 +242,7 @@ Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& b
                ? check_magnitudes<float>(request.meshes[i], budget)
                : check_magnitudes<double>(request.meshes[i], budget);
   if (!fine) return blame(request, std::move(fine).error(), "meshes", i, history);
+  if (auto turned = turn_for_gltf(request, i, budget); !turned) return turned;
   if (history.changed()) {
     request.face_origins.resize(request.meshes.size());
     request.face_origins[i] = history.original_faces();

@@ -59,11 +59,16 @@ struct Options {
 // How arrays of tuples were written in the JSON body; the answer follows.
 enum class ArrayForm { nested, flat };
 
+// Which way a mesh's faces run, seen from outside: counter-clockwise or clockwise. The core knows the first
+// only; what it makes of the faces as they are is turned when it is written.
+enum class Orientation { right_handed, left_handed };
+
 struct JsonMeshForm {
   ArrayForm points = ArrayForm::nested;
-  ArrayForm faces = ArrayForm::flat;    // faceVertexIndices
-  ArrayForm creases = ArrayForm::flat;  // creaseIndices
-  std::vector<ArrayForm> primvars;      // values, in the order of ControlMesh::primvars
+  ArrayForm faces = ArrayForm::flat;                    // faceVertexIndices
+  ArrayForm creases = ArrayForm::flat;                  // creaseIndices
+  std::vector<ArrayForm> primvars;                      // values, in the order of ControlMesh::primvars
+  Orientation orientation = Orientation::right_handed;  // of the mesh as it is now, see prepare()
 };
 
 struct JsonCurvesForm {

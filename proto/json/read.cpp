@@ -113,6 +113,7 @@ const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& Docu
       {"points", &D::of_mesh<&M::points>},
       {"faceVertexCounts", &D::of_mesh<&M::face_vertex_counts>},
       {"faceVertexIndices", &D::of_mesh<&M::face_vertex_indices>},
+      {"orientation", &D::of_mesh<&M::orientation>},
       {"subdivisionScheme", &D::of_mesh<&M::subdivision_scheme>},
       {"interpolateBoundary", &D::of_mesh<&M::interpolate_boundary>},
       {"faceVaryingLinearInterpolation", &D::of_mesh<&M::face_varying_linear_interpolation>},

@@ -1,6 +1,7 @@
 #include "proto/json/read_mesh.h"
 
 #include "proto/json/read_primvar.h"
+#include "proto/json/words.h"
 #include "proto/options.h"
 
 namespace subdivd::proto::json {
@@ -37,6 +38,7 @@ const std::array<Cursor::Member<MeshReader>, MeshReader::kMembers>& MeshReader::
       {"points", &MeshReader::points},
       {"faceVertexCounts", &MeshReader::face_vertex_counts},
       {"faceVertexIndices", &MeshReader::face_vertex_indices},
+      {"orientation", &MeshReader::orientation},
       {"subdivisionScheme", &MeshReader::subdivision_scheme},
       {"interpolateBoundary", &MeshReader::interpolate_boundary},
       {"faceVaryingLinearInterpolation", &MeshReader::face_varying_linear_interpolation},
@@ -71,6 +73,13 @@ bool MeshReader::face_vertex_counts() {
 bool MeshReader::face_vertex_indices() {
   has_faces_ = true;
   return read_lists(cursor_, "face", faces_);
+}
+
+bool MeshReader::orientation() {
+  std::size_t word = 0;
+  if (!cursor_.read_word(orientation_words(), word)) return false;
+  result_.form.orientation = static_cast<Orientation>(word);
+  return true;
 }
 
 bool MeshReader::subdivision_scheme() {

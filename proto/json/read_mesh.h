@@ -36,7 +36,7 @@ class MeshReader {
  public:
   explicit MeshReader(Cursor& cursor) : cursor_(cursor) {}
 
-  static constexpr std::size_t kMembers = 15;
+  static constexpr std::size_t kMembers = 16;
   static const std::array<Cursor::Member<MeshReader>, kMembers>& members();
 
   // To be called standing in the mesh, after its last member.
@@ -47,6 +47,7 @@ class MeshReader {
   bool points();
   bool face_vertex_counts();
   bool face_vertex_indices();
+  bool orientation();
   bool subdivision_scheme();
   bool interpolate_boundary();
   bool face_varying_linear_interpolation();

@@ -26,12 +26,16 @@ static_assert(kKinds.back() == Nurbs::kWord);
 constexpr std::array<std::string_view, 3> kSpacings = {"uniform", "centripetal", "chordal"};
 static_assert(kSpacings.size() == static_cast<std::size_t>(Spacing::chordal) + 1);
 
+constexpr std::array<std::string_view, 2> kOrientations = {"rightHanded", "leftHanded"};
+static_assert(kOrientations.size() == static_cast<std::size_t>(Orientation::left_handed) + 1);
+
 }  // namespace
 
 std::span<const std::string_view> interpolation_words() { return kInterpolations; }
 std::span<const std::string_view> wrap_words() { return kWraps; }
 std::span<const std::string_view> basis_words() { return std::span(kKinds).first(kKinds.size() - 1); }
 std::span<const std::string_view> spacing_words() { return kSpacings; }
+std::span<const std::string_view> orientation_words() { return kOrientations; }
 
 std::string_view word_of(Interpolation interpolation) {
   return interpolation_words()[static_cast<std::size_t>(interpolation)];
@@ -43,6 +47,10 @@ std::string_view word_of(BoundaryInterpolation interpolation) {
 
 std::string_view word_of(FaceVaryingInterpolation interpolation) {
   return find_option("faceVaryingLinearInterpolation")->words[static_cast<std::size_t>(interpolation)];
+}
+
+std::string_view word_of(Orientation orientation) {
+  return orientation_words()[static_cast<std::size_t>(orientation)];
 }
 
 std::string_view word_of(CurveWrap wrap) { return wrap_words()[static_cast<std::size_t>(wrap)]; }

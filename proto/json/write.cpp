@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "core/base/overloaded.h"
+#include "core/base/pace.h"
 #include "proto/json/json.h"
 #include "proto/json/text_writer.h"
 #include "proto/json/words.h"
@@ -13,7 +14,7 @@ template <class Real>
 class AnswerWriter {
  public:
   AnswerWriter(const RefineRequest& request, RefineAnswer<Real> answer, const Budget& budget)
-      : request_(request), answer_(std::move(answer)), text_(budget) {}
+      : request_(request), answer_(std::move(answer)), budget_(budget), text_(budget) {}
 
   Result<Payload> write(std::string_view envelope) {
     const bool nothing = answer_.meshes.empty() && answer_.curves.empty() && answer_.surfaces.empty();
@@ -60,6 +61,8 @@ class AnswerWriter {
     array(chosen(mesh.points, mesh.limit_points), "points", 3, form.points, i);
     text_.key("faceVertexIndices");
     text_.indices(std::exchange(mesh.triangles, {}), 3, form.faces);
+    const bool left_handed = form.orientation == Orientation::left_handed;
+    word("orientation", word_of(form.orientation), left_handed);
     word("interpolateBoundary", word_of(control.interpolate_boundary));
     word("faceVaryingLinearInterpolation", word_of(control.face_varying_linear_interpolation));
     if (!mesh.primvars.empty()) {
@@ -69,7 +72,16 @@ class AnswerWriter {
         write_primvar(mesh.primvars[p], p < form.primvars.size() ? form.primvars[p] : ArrayForm::nested, i);
       text_.close('}');
     }
+    if (left_handed) turn(mesh.normals);
     if (request_.options.normals) array(std::exchange(mesh.normals, {}), "normals", 3, form.points, i);
+  }
+
+  // To the other side; a difference, so that no zero becomes -0.
+  void turn(Buffer<Real>& normals) {
+    auto turned = stoppable(budget_, [&](const Pace& pace) {
+      pace.for_each(normals.size(), [&](Count k) { normals[k] = Real(0) - normals[k]; });
+    });
+    if (!turned) error_ = std::move(turned).error();
   }
 
   void write_primvar(RefinedPrimvar<Real>& primvar, ArrayForm form, std::size_t mesh) {
@@ -204,6 +216,7 @@ class AnswerWriter {
 
   const RefineRequest& request_;
   RefineAnswer<Real> answer_;
+  const Budget& budget_;
   TextWriter text_;
   std::optional<Error> error_;
 };

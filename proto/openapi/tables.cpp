@@ -30,6 +30,7 @@ void add_words(Json& named) {
   named["words.wrap"] = list(json::wrap_words());
   named["words.basis"] = list(json::basis_words());
   named["words.spacing"] = list(json::spacing_words());
+  named["words.orientation"] = list(json::orientation_words());
   named["words.schemes"] = list(kSchemeNames);
   named["standard.scheme"] = kSchemeNames.front();
   for (const OptionSpec& spec : option_table())
