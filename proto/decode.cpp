@@ -7,6 +7,8 @@
 #include "proto/json/survey.h"
 #include "proto/options.h"
 #include "proto/prepare.h"
+#include "proto/text/kind.h"
+#include "proto/text/text.h"
 
 namespace subdivd::proto {
 namespace {
@@ -18,6 +20,13 @@ Result<RefineRequest> read_gltf(std::string_view body, Format format, const Quer
   Options options;
   if (Result<void> done = set_parameters(options, query); !done) return done.error();
   return gltf::read(body, format, options, limits, budget);
+}
+
+// The query wins over what the body says.
+Result<RefineRequest> with_parameters(Result<RefineRequest> request, const QueryParameters& query) {
+  if (!request) return request;
+  if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
+  return request;
 }
 
 // One look tells what the body is; then one reader reads it.
@@ -34,9 +43,13 @@ Result<RefineRequest> read_json(std::string_view body, BodyKind kind, const Quer
   if (auto taken = budget.take_memory(survey->reading_bytes()); !taken) return taken.error();
   Result<RefineRequest> request =
       survey->is_curve() ? json::read_curve(body, limits, budget) : json::read(body, limits, budget);
-  if (!request) return request;
-  if (Result<void> done = set_parameters(request->options, query); !done) return done.error();
-  return request;
+  return with_parameters(std::move(request), query);
+}
+
+Result<RefineRequest> read_text(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                const Budget& budget) {
+  return with_parameters(kind == BodyKind::off ? text::read_off(body, budget) : text::read_obj(body, budget),
+                         query);
 }
 
 Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const QueryParameters& query,
@@ -48,6 +61,9 @@ Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const Query
     case BodyKind::unspecified:
       if (magic) return read_gltf(body, Format::glb, query, limits, budget);
       break;
+    case BodyKind::obj:
+    case BodyKind::off:
+      return read_text(body, kind, query, budget);
     case BodyKind::json:
     case BodyKind::gltf:
       if (magic)
@@ -56,6 +72,12 @@ Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const Query
       break;
   }
   if (kind == BodyKind::gltf) return read_gltf(body, Format::gltf, query, limits, budget);
+  if (kind == BodyKind::unspecified) {
+    const Result<text::TextKind> found = text::find_kind(body, budget);
+    if (!found) return found.error();
+    if (*found == text::TextKind::obj) return read_text(body, BodyKind::obj, query, budget);
+    if (*found == text::TextKind::off) return read_text(body, BodyKind::off, query, budget);
+  }
   return read_json(body, kind, query, limits, budget);
 }
 

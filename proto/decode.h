@@ -15,9 +15,9 @@
 namespace subdivd::proto {
 
 // What the transport knows of the body's kind. `unspecified` (absent, octet-stream, curl's default form
-// type): "glTF" as the first four bytes is GLB; a JSON object with a member "asset" is glTF, otherwise it is
-// JSON.
-enum class BodyKind { unspecified, json, glb, gltf };
+// type): "glTF" as the first four bytes is GLB; the first words outside comments tell OBJ and OFF
+// (text/kind.h); a JSON object with a member "asset" is glTF, otherwise it is JSON.
+enum class BodyKind { unspecified, json, glb, gltf, obj, off };
 
 // Whether the body begins as a GLB does.
 bool is_glb(std::string_view body);
@@ -26,7 +26,7 @@ using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
 // Reads and validates a whole request: body, then query parameters over its options. The body need not be
 // padded. What it becomes in memory is taken from the budget before it is allocated. Error::where is a path
-// into the body, or {"?name"} for a query parameter (starts with '?').
+// into the body (of OBJ and OFF empty: messages name the line), or {"?name"} for a query parameter (starts with '?').
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
                                     const Limits& limits, const Budget& budget = {});
 

@@ -197,8 +197,8 @@ Error blame(const RefineRequest& request, Error error, const char* of, std::size
   if (is_stop(error)) return error;
   const std::string_view kind = of;
   const bool mesh = kind == "meshes", curves = kind == "curves";
-  if (request.input != Format::json) {
-    // A glTF body holds no surfaces, and no arrays of numbers to point into.
+  if (request.input != Format::json || request.from_text) {
+    // Such bodies hold no surfaces, and no arrays of numbers to point into.
     if (const std::string what = subject(error.where); mesh && !what.empty())
       error.message = what + ": " + error.message;
     const std::string& name = mesh ? request.meshes[i].name : request.curves[i].name;

@@ -17,8 +17,8 @@ namespace subdivd::proto {
 Result<void> prepare(RefineRequest& request, const Budget& budget);
 
 // `error` about mesh, curve or surface number `i` (`of`: "meshes", "curves" or "surfaces") with its place in
-// the body: for JSON /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, whose accessors are
-// no arrays of numbers to point into, the message names the mesh.
+// the body: for JSON /meshes/i/… or, when a single mesh stands at the top, /…; for glTF, OBJ and
+// OFF, which have no arrays of numbers to point into, the message names the mesh.
 Error blame_input(const RefineRequest& request, Error error, const char* of, std::size_t i);
 
 }  // namespace subdivd::proto

@@ -88,7 +88,8 @@ class Source;  // the original document and its buffers, for patching (proto/glt
 }
 
 struct RefineRequest {
-  Format input = Format::json;
+  Format input = Format::json;  // of OBJ and OFF, too: nobody writes them
+  bool from_text = false;       // OBJ or OFF, whose numbers no JSON Pointer leads to
   Options options;
   std::vector<ControlMesh> meshes;  // checked: check() has passed
   std::vector<ControlCurves> curves;

@@ -50,12 +50,13 @@ Response not_of_this_kind(bool takes_gltf) {
   Response response = problem_response(
       Refusal{415, "unsupported_media_type",
               takes_gltf ? "Content-Type must be application/json, model/gltf-binary, model/gltf+json, "
-                           "application/octet-stream or left out"
+                           "model/obj, text/plain (OBJ and OFF), application/octet-stream or left out"
                          : "this request takes JSON: Content-Type must be application/json, "
                            "application/octet-stream or left out"});
-  response.headers.emplace_back("Accept-Post", takes_gltf
-                                                   ? "application/json, model/gltf-binary, model/gltf+json"
-                                                   : "application/json");
+  response.headers.emplace_back(
+      "Accept-Post", takes_gltf
+                         ? "application/json, model/gltf-binary, model/gltf+json, model/obj, text/plain"
+                         : "application/json");
   return response;
 }
 
@@ -221,8 +222,9 @@ std::optional<Response> screen_body(const Request& head, bool takes_gltf) {
     return response;
   }
   const auto kind = body_kind(head);
-  const bool gltf = kind == proto::BodyKind::glb || kind == proto::BodyKind::gltf;
-  if (!kind || (gltf && !takes_gltf)) return not_of_this_kind(takes_gltf);
+  const bool other =
+      kind == proto::BodyKind::glb || kind == proto::BodyKind::gltf || kind == proto::BodyKind::obj;
+  if (!kind || (other && !takes_gltf)) return not_of_this_kind(takes_gltf);
   return std::nullopt;
 }
 

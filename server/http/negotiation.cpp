@@ -81,6 +81,7 @@ std::optional<proto::BodyKind> body_kind(const Request& request) {
   if (type == "application/json") return proto::BodyKind::json;
   if (type == "model/gltf-binary") return proto::BodyKind::glb;
   if (type == "model/gltf+json") return proto::BodyKind::gltf;
+  if (type == "model/obj") return proto::BodyKind::obj;
   constexpr std::array<std::string_view, 4> kSayNothing = {"", "application/octet-stream", "text/plain",
                                                            "application/x-www-form-urlencoded"};
   if (std::find(kSayNothing.begin(), kSayNothing.end(), type) != kSayNothing.end())
