@@ -254,6 +254,19 @@ TEST(Application, takes_no_gltf_where_curves_are_asked_about) {
   }
   EXPECT_EQ(ask(server.port, post("/v1/refine", glb, "Content-Type: model/gltf-binary\r\n")).status, 400);
 }
+TEST(Application, takes_obj_and_off_where_meshes_are_refined_and_nowhere_else) {
+  const RunningApplication server;
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                    off = "OFF 3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const char* path : {"/v1/refine", "/v1/verify"}) {
+    for (const char* type : {"", "Content-Type: model/obj\r\n", "Content-Type: text/plain\r\n"})
+      EXPECT_EQ(ask(server.port, post(path, obj, type)).status, 200) << path << type;
+    for (const char* type :
+         {"", "Content-Type: text/plain\r\n", "Content-Type: application/octet-stream\r\n"})
+      EXPECT_EQ(ask(server.port, post(path, off, type)).status, 200) << path << type;
+  }
+  EXPECT_EQ(ask(server.port, post("/v1/curves/refine", obj, "Content-Type: model/obj\r\n")).status, 415);
+}
 TEST(Application, tells_the_time_it_took_in_a_header_only) {
   const RunningApplication server;
   for (const char* path :

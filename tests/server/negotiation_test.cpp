@@ -24,6 +24,7 @@ TEST(Negotiation, knows_the_kinds_of_body) {
   EXPECT_EQ(kind("application/json"), BodyKind::json);
   EXPECT_EQ(kind("model/gltf-binary"), BodyKind::glb);
   EXPECT_EQ(kind("model/gltf+json"), BodyKind::gltf);
+  EXPECT_EQ(kind("model/obj"), BodyKind::obj);
 }
 TEST(Negotiation, ignores_case_and_parameters_of_the_type) {
   EXPECT_EQ(kind("Application/JSON ; charset=utf-8"), BodyKind::json);

@@ -36,12 +36,13 @@ TEST(OpenApi, lists_the_very_routes_of_the_application) {
   EXPECT_EQ(listed, served);
 }
 
-TEST(OpenApi, lists_glTF_where_the_application_takes_it) {
+TEST(OpenApi, lists_other_kinds_than_json_where_the_application_takes_it) {
   const Application application(default_config(), 1'000'000'000);
   for (const Route& route : application.router().routes()) {
     if (route.method != "POST") continue;
     const json& content = document()["paths"][std::string(route.path)]["post"]["requestBody"]["content"];
-    EXPECT_EQ(content.contains("model/gltf-binary"), route.takes_gltf) << route.path;
+    for (const char* type : {"model/gltf-binary", "model/gltf+json", "model/obj", "text/plain"})
+      EXPECT_EQ(content.contains(type), route.takes_gltf) << route.path << ' ' << type;
   }
 }
 
