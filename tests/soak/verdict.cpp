@@ -77,8 +77,7 @@ Rest settle(Daemon& daemon, const Rest* start) {
     now = {daemon.footprint(), daemon.counters()};
     const bool kernel = start == nullptr || (now.footprint.descriptors <= start->footprint.descriptors &&
                                              now.footprint.threads <= start->footprint.threads);
-    const bool memory =
-        start == nullptr || now.footprint.resident <= start->footprint.resident + kKeptBytes;
+    const bool memory = start == nullptr || now.footprint.resident <= start->footprint.resident + kKeptBytes;
     if (kernel && memory && now.counters && at_rest(*now.counters)) break;
   } while (Clock::now() < deadline && daemon.alive());
   return now;
