@@ -10,6 +10,7 @@
 #include "core/base/overloaded.h"
 #include "core/base/pace.h"
 #include "core/base/precision.h"
+#include "core/base/text_of.h"
 #include "core/curves/bases.h"
 #include "core/splines/edit.h"
 
@@ -129,10 +130,10 @@ Result<void> check_weights(std::span<const double> weights, const Pace& pace) {
     pace.spend(1);
     const double weight = weights[i];
     if (weight > 0 && std::isfinite(weight)) continue;
-    return fault(std::isfinite(weight) ? ErrorCode::out_of_range : ErrorCode::not_finite,
-                 "weight " + std::to_string(i) + " is " + std::to_string(weight) +
-                     "; weights are finite numbers above 0",
-                 {"pointWeights", std::uint64_t{i}});
+    return fault(
+        std::isfinite(weight) ? ErrorCode::out_of_range : ErrorCode::not_finite,
+        "weight " + std::to_string(i) + " is " + text_of(weight) + "; weights are finite numbers above 0",
+        {"pointWeights", std::uint64_t{i}});
   }
   return {};
 }
@@ -162,8 +163,8 @@ Result<void> check_on_knots(const ControlCurves& curves, const Nurbs& nurbs, con
       const double from = nurbs.ranges[2 * c], to = nurbs.ranges[2 * c + 1];
       if (!(from >= spline.begin() && from < to && to <= spline.end()))
         return fault(ErrorCode::out_of_range,
-                     "the range must ascend within the domain, " + std::to_string(spline.begin()) + " to " +
-                         std::to_string(spline.end()),
+                     "the range must ascend within the domain, " + text_of(spline.begin()) + " to " +
+                         text_of(spline.end()),
                      {"ranges", std::uint64_t{c}});
     }
     place = next_place(curves, c, place);

@@ -41,7 +41,7 @@ struct Ring {
   // empty where none decays with others. (The ring of a channel has but some of these edges. A hub may have a
   // million such rings: only sums, so that not every one of them goes through all its edges.)
   std::vector<DecaySum> around;
-  std::vector<float> far_child;  // one level on, of the halves that are not next to the vertex
+  std::vector<float> far_child;  // per edge: sharpness, one level on, of its half away from the vertex
   std::vector<Wedge> wedges;
   std::vector<Index> sector_edges;  // of the ring, sector by sector, counter-clockwise
   std::vector<Sector> sectors;

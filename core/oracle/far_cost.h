@@ -13,10 +13,10 @@
 
 namespace subdivd::oracle {
 
-// Predicted times are those of one core of 2023 that does nothing else; on a machine that is, they are
-// longer.
+// Predicted processor times, as measured on an idle core of 2023; a busy machine takes as much longer as it does
+// for everything else.
 using Picoseconds = Count;
-inline constexpr Picoseconds kLongestFarCall = 1'000'000'000'000;
+inline constexpr Picoseconds kLongestFarCall = 1'000'000'000'000;  // a second
 
 // Far keeps the faces and the edges of a point in 16 bits.
 inline constexpr Count kMostFacesOfAPoint = 65535;

@@ -1,6 +1,6 @@
 #pragma once
-// B-spline basis functions and the points and derivatives of a spline: localized, so the cost does not depend
-// on the number of control points (but for the search of the span).
+// B-spline basis functions and the points and derivatives of a spline. Each touches degree + 1 control points, so
+// the cost does not depend on how many there are (but for the search of the span).
 
 #include <span>
 #include <utility>
@@ -13,7 +13,8 @@
 namespace subdivd {
 
 // The degree + 1 basis functions that do not vanish on span `span`, N_{span-p}(t), ..., N_span(t), into
-// values[0..p]. They sum to 1.   [Cox72; deBoor72; PieglTiller97, A2.2]
+// values[0..p]. They sum to 1. The span is not empty, knots[span] < knots[span + 1], and degree <= span; t may lie
+// anywhere in it.   [Cox72; deBoor72; PieglTiller97, A2.2]
 void basis_functions(std::span<const double> knots, Index degree, Count span, double t,
                      std::span<double> values);
 

@@ -8,8 +8,9 @@
 
 namespace subdivd {
 
-// The same curve at degree spline.degree + times: every knot stands `times` times more. out_of_range above
-// kMaxDegree. Every point of the answer is the mean of the blossoms of its knots with one of them left out.
+// The same curve over its domain at degree spline.degree + times. As from part(), it starts and ends at its first
+// and last point: knots outside the domain are gone, both ends stand degree + times + 1 times, and every inner knot
+// stands `times` times more. out_of_range at {"degree"} above kMaxDegree. Every point of the answer is the mean of the blossoms of its knots with one of them left out.
 //   f'(u_1, ..., u_{p+1}) = sum_j f(u_1, ..., without u_j, ..., u_{p+1}) / (p + 1)   [Ramshaw87]
 Result<Spline> elevate_degree(const Spline& spline, Index times, const Budget& budget);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/pace.h"
+#include "core/base/text_of.h"
 #include "core/splines/degree.h"
 #include "core/splines/knot_insertion.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 Error outside(double t, const Spline& spline, Path where) {
   return Error{ErrorCode::out_of_range,
-               "the parameter " + std::to_string(t) + " lies outside the domain, " +
-                   std::to_string(spline.begin()) + " to " + std::to_string(spline.end()),
+               "the parameter " + text_of(t) + " lies outside the domain, " + text_of(spline.begin()) +
+                   " to " + text_of(spline.end()),
                std::move(where)};
 }
 
@@ -106,8 +107,8 @@ Result<void> append_brought(Spline& first, Spline& other, double gap, const Pace
   const Index width = first.width;
   const auto end = first.point(first.point_count() - 1), start = other.point(0);
   if (const double apart = distance(end, start, first.rational); !(apart <= gap))
-    return Error{ErrorCode::out_of_range, "the curves are " + std::to_string(apart) +
-                                              " apart where they should meet; " + std::to_string(gap) +
+    return Error{ErrorCode::out_of_range, "the curves are " + text_of(apart) +
+                                              " apart where they should meet; " + text_of(gap) +
                                               " are allowed"};
   const double meeting = first.end(), shift = meeting - other.begin();
   if (!std::isfinite(shift + other.end() - first.begin()))

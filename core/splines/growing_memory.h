@@ -9,9 +9,10 @@
 
 namespace subdivd {
 
+// Takes from the budget in steps of half of what is held; never gives back.
 class GrowingMemory {
  public:
-  // `each`: bytes of an element in a vector, and of what it owns elsewhere.
+  // `in_vector`: bytes of an element in its vector; `elsewhere`: bytes that it owns beside that.
   GrowingMemory(const Budget& budget, Count in_vector, Count elsewhere)
       // A vector that grows holds the old elements and twice as many new ones for a moment.
       : budget_(budget), each_(3 * in_vector + elsewhere) {}

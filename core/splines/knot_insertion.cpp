@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/pace.h"
+#include "core/base/text_of.h"
 #include "core/splines/passage.h"
 
 namespace subdivd {
@@ -37,9 +38,9 @@ void insert(Passage& passage, double t) {
 constexpr Count kSearch = 32;  // steps of a search among all knots
 
 Error too_often(double t, Index degree, Count times, bool at_end) {
-  return Error{ErrorCode::out_of_range, "the knot " + std::to_string(t) + " would stand " +
-                                            std::to_string(times) + " times; at most " +
-                                            std::to_string(degree + (at_end ? 1 : 0)) + " are possible " +
+  return Error{ErrorCode::out_of_range, "the knot " + text_of(t) + " would stand " + std::to_string(times) +
+                                            " times; at most " + std::to_string(degree + (at_end ? 1 : 0)) +
+                                            " are possible " +
                                             (at_end ? "at the end of the domain" : "inside the domain") +
                                             " of a curve of degree " + std::to_string(degree)};
 }
@@ -48,9 +49,8 @@ Error too_often(double t, Index degree, Count times, bool at_end) {
 Result<void> check_room(const Spline& spline, double t, Count times) {
   // Modulo the period there may be several places; a knot has one.
   if (!(t >= spline.begin() && t <= spline.end()))
-    return Error{ErrorCode::out_of_range, "the knot " + std::to_string(t) + " lies outside the domain, " +
-                                              std::to_string(spline.begin()) + " to " +
-                                              std::to_string(spline.end())};
+    return Error{ErrorCode::out_of_range, "the knot " + text_of(t) + " lies outside the domain, " +
+                                              text_of(spline.begin()) + " to " + text_of(spline.end())};
   const bool at_end = t == spline.begin() || t == spline.end();
   const Count all = multiplicity(spline.knots, t) + times;
   if (all > Count{spline.degree} + (at_end ? 1 : 0)) return too_often(t, spline.degree, all, at_end);
@@ -132,7 +132,7 @@ Result<std::vector<double>> knots_between(const Spline& spline, Index level, Cou
     pace.for_each(parts, [&](Count i) { rising = rising && span[i] < span[i + 1]; });
     if (!rising)
       return Error{ErrorCode::out_of_range,
-                   "the knots " + std::to_string(span[0]) + " and " + std::to_string(span[parts]) +
+                   "the knots " + text_of(span[0]) + " and " + text_of(span[parts]) +
                        " are too close to put " + std::to_string(parts - 1) + " between them",
                    {"knots", std::uint64_t{k}}};
     pace.append(std::span(span).subspan(1, parts - 1), knots);

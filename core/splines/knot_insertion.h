@@ -21,7 +21,8 @@ Result<Spline> insert_knot(const Spline& spline, double t, Index times);
 Result<Spline> refine_knots(const Spline& spline, std::span<const double> knots, const Budget& budget);
 
 // The curve with every span of its domain cut into 2^level equal ones: what refining means for a curve on
-// knots. Halving again and again leads to the same knots. too_large beyond 32-bit numbers of points or the
+// knots. Halving again and again leads to the same knots. `level` is at most 32. out_of_range at
+// {"knots", i} where two knots lie too close to be divided; too_large beyond 32-bit numbers of points or the
 // budget's bytes.
 Result<Spline> refine_spans(const Spline& spline, Index level, const Budget& budget);
 // Its number of points: n + (spans that are not empty) (2^level - 1).

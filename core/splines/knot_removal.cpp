@@ -8,6 +8,7 @@
 
 #include "core/base/all_finite.h"
 #include "core/base/pace.h"
+#include "core/base/text_of.h"
 #include "core/splines/knot_insertion.h"
 #include "core/splines/linked_knots.h"
 #include "core/splines/passage.h"
@@ -155,9 +156,8 @@ Index remove_here(Passage& passage, Index times, double tolerance, double& bound
 namespace {
 
 Error no_such_knot(const Spline& spline, double t) {
-  return Error{ErrorCode::out_of_range, "there is no knot " + std::to_string(t) + " inside the domain, " +
-                                            std::to_string(spline.begin()) + " to " +
-                                            std::to_string(spline.end())};
+  return Error{ErrorCode::out_of_range, "there is no knot " + text_of(t) + " inside the domain, " +
+                                            text_of(spline.begin()) + " to " + text_of(spline.end())};
 }
 
 }  // namespace

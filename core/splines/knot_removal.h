@@ -48,7 +48,8 @@ Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knot
                               const Budget& budget);
 
 // Removes knots inside the domain until none is left that could be, the bounds of all removals together
-// within `tolerance`. Which of them stay where not all can go depends on their order alone.
+// within `tolerance`. The cheapest go first: in rounds whose allowed cost of a removal grows up to `tolerance`, and
+// of two neighbours only one in a round. Every pass over the curve is linear and polled.
 Result<Thinning> remove_knots(const Spline& spline, double tolerance, const Budget& budget);
 
 }  // namespace subdivd

@@ -1,16 +1,13 @@
 #pragma once
-// What the measurements of a curve share: how they refuse, and how often they look at the budget.
+// How measurements of a curve word their refusals.
 
 #include <cstdio>
 #include <string>
 #include <utility>
 
-#include "core/base/index.h"
 #include "core/base/result.h"
 
 namespace subdivd {
-
-inline constexpr Count kPiecesPerPoll = 64;  // pieces between two looks at the budget
 
 inline Error refusal(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where)};

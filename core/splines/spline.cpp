@@ -4,15 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/text_of.h"
+
 namespace subdivd {
 namespace {
-
-std::string number(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
 
 Error fault(ErrorCode code, std::string message, Path where) {
   return Error{code, std::move(message), std::move(where)};
@@ -29,7 +24,7 @@ Result<void> check_multiplicities(std::span<const double> knots, Index degree, C
     const Count allowed = inside ? degree : Count{degree} + 1;
     if (next - first > allowed)
       return fault(ErrorCode::out_of_range,
-                   "the knot " + number(knots[first]) + " stands " + std::to_string(next - first) +
+                   "the knot " + text_of(knots[first]) + " stands " + std::to_string(next - first) +
                        " times; a curve of degree " + std::to_string(degree) + " takes a knot " +
                        (inside ? "inside its domain" : "at its end") + " at most " + std::to_string(allowed) +
                        " times",
@@ -54,8 +49,8 @@ Result<void> check_knots(std::span<const double> knots, Index degree, Count poin
                    {"knots", std::uint64_t{i}});
     if (i > 0 && knots[i] < knots[i - 1])
       return fault(ErrorCode::out_of_range,
-                   "knot " + std::to_string(i) + " is " + number(knots[i]) + ", less than the " +
-                       number(knots[i - 1]) + " before it; knots never fall",
+                   "knot " + std::to_string(i) + " is " + text_of(knots[i]) + ", less than the " +
+                       text_of(knots[i - 1]) + " before it; knots never fall",
                    {"knots", std::uint64_t{i}});
   }
   if (!(knots[degree] < knots[points]) || !std::isfinite(knots.back() - knots.front()))
@@ -81,7 +76,7 @@ Result<void> check_numbers(const Spline& spline, const Pace& pace) {
     pace.spend(1);
     if (const double weight = spline.point(i)[width - 1]; !(weight > 0))
       return fault(ErrorCode::out_of_range,
-                   "weight " + std::to_string(i) + " is " + number(weight) + "; weights are above 0",
+                   "weight " + std::to_string(i) + " is " + text_of(weight) + "; weights are above 0",
                    {"pointWeights", std::uint64_t{i}});
   }
   return {};
@@ -95,7 +90,8 @@ Result<void> Spline::check(const Budget& budget) const {
         ErrorCode::out_of_range,
         "the degree is " + std::to_string(degree) + "; it must be 1 to " + std::to_string(kMaxDegree),
         {"degree"});
-  if (dimension() < 1) return fault(ErrorCode::out_of_range, "points need a coordinate", {"points"});
+  if (width < (rational ? 2u : 1u))
+    return fault(ErrorCode::out_of_range, "points need a coordinate", {"points"});
   if (points.size() % width != 0)
     return fault(ErrorCode::wrong_length, "the numbers do not make whole points", {"points"});
   if (point_count() <= degree)
@@ -131,8 +127,8 @@ Result<double> check_parameter(const Spline& spline, double t) {
   if (t >= begin && t <= end) return t;
   if (!spline.periodic)
     return fault(ErrorCode::out_of_range,
-                 "the parameter " + number(t) + " lies outside the curve's domain, " + number(begin) +
-                     " to " + number(end),
+                 "the parameter " + text_of(t) + " lies outside the curve's domain, " + text_of(begin) +
+                     " to " + text_of(end),
                  {});
   const double period = end - begin;
   double rest = std::fmod(t - begin, period);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/precision.h"
+#include "core/base/text_of.h"
 #include "core/surfaces/patch.h"
 #include "core/surfaces/patch_rules.h"
 
@@ -85,9 +86,8 @@ Result<double> parameter_of(const Direction& d, double t, const char* name) {
   const double high = static_cast<double>(d.n) - (d.pinned_quadratic() ? 2 : 1 + low);
   if (t >= low && t <= high) return t;
   return Error{ErrorCode::out_of_range,
-               std::string("the parameter ") + name + " = " + std::to_string(t) +
-                   " lies outside the surface's domain, " + std::to_string(low) + " to " +
-                   std::to_string(high),
+               std::string("the parameter ") + name + " = " + text_of(t) +
+                   " lies outside the surface's domain, " + text_of(low) + " to " + text_of(high),
                {name}};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // What holds along one direction of a B-spline surface, and its normal: what refinement and evaluation share.
-// Inside core/curves only.
+// Inside core/surfaces only.
 
 #include <array>
 #include <limits>

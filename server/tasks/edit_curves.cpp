@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/base/pace.h"
+#include "core/base/text_of.h"
 #include "core/curves/bases.h"
 #include "core/curves/piecewise.h"
 #include "core/splines/approximation.h"
@@ -70,7 +71,7 @@ Result<void> reduce_to_degree(Approximation& curve, Index degree, double allowed
     if (curve.bound <= allowed) continue;
     return Error{ErrorCode::out_of_range,
                  "at degree " + std::to_string(curve.spline.degree) + " the curve may be " +
-                     std::to_string(curve.bound) + " away; the tolerance is " + std::to_string(allowed),
+                     text_of(curve.bound) + " away; the tolerance is " + text_of(allowed),
                  {"toDegree"}};
   }
   return {};

@@ -1,4 +1,6 @@
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -61,22 +63,34 @@ Result<CurveMeasure> measure_curve(const SubdividedCurve& evaluable, const Contr
   return measure;
 }
 
+// What an error of a measurement is about: the curve itself, where it is left to be blamed on its set, or what
+// was asked of it.
+bool is_about_curve(const Error& error) {
+  constexpr std::array<std::string_view, 3> kOfCurve{"basis", "points", "pointWeights"};
+  const auto* const name = error.where.empty() ? nullptr : std::get_if<std::string>(&error.where[0]);
+  return name != nullptr && std::ranges::count(kOfCurve, *name) != 0;
+}
+Error of_curve_or_member(Error error, const char* member) {
+  return is_about_curve(error) ? std::move(error) : at_member(std::move(error), member);
+}
+
 // `first`: where the points of the curve begin.
 Result<CurveMeasure> measure_curve(const Spline& spline, const ControlCurves& curves, Count curve,
                                    Count first, const CurveTask& task, ReusedMemory& memory) {
   const Budget& budget = memory.budget();
   const Count before = memory.used();  // one after the other takes the same memory
   CurveMeasure measure;
+  // The box first: of weights too far apart it knows the number within the whole curve.
+  auto box = bounds(spline, budget);
+  if (!box) return std::move(box).error();
+  measure.box = *std::move(box);
+  memory.free_to(before);
   auto length = arc_length(spline,
                            {.tolerance = task.tolerance.value_or(kLengthTolerance),
                             .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
                            budget);
-  if (!length) return at_member(std::move(length).error(), "tolerance");
+  if (!length) return of_curve_or_member(std::move(length).error(), "tolerance");
   measure.length = *length;
-  memory.free_to(before);
-  auto box = bounds(spline, budget);
-  if (!box) return std::move(box).error();
-  measure.box = *std::move(box);
   memory.free_to(before);
   if (auto done = measure_closest(spline, task, memory, measure); !done) return std::move(done).error();
   if (task.flatten) {
@@ -90,7 +104,7 @@ Result<CurveMeasure> measure_curve(const Spline& spline, const ControlCurves& cu
                                        {.tolerance = kPositionOptions.tolerance,
                                         .max_pieces = most_length_pieces(curves.points_of_curve(curve))},
                                        budget);
-    if (!parameters) return at_member(std::move(parameters).error(), "equalLengths");
+    if (!parameters) return of_curve_or_member(std::move(parameters).error(), "equalLengths");
     measure.equal_parameters = *std::move(parameters);
   }
   memory.free_to(before);
@@ -120,10 +134,14 @@ Result<std::vector<CurveMeasure>> compute_measures(const CurveRequest& request, 
           return measure_curve(evaluable, curves, ordinal, first, request.task, memory);
         },
         curve);
+    if (!one) {
+      Error error = std::move(one).error();
+      if (!is_about_curve(error)) return error;
+      // Weights are one for each point of the set.
+      if (error.where.size() == 2) std::get<std::uint64_t>(error.where[1]) += first;
+      return proto::blame_input(request.curves, std::move(error), "curves", set);
+    }
     first += curves.points_of_curve(ordinal);
-    if (!one && one.error().where == Path{"basis"})
-      return proto::blame_input(request.curves, std::move(one).error(), "curves", set);
-    if (!one) return std::move(one).error();
     all.push_back(*std::move(one));
     return {};
   };

@@ -1,6 +1,6 @@
 #pragma once
-// How long the phases of a request took. Bodies hold nothing that varies; the daemon tells
-// these in a header.
+// How long the phases of a request took, for the Server-Timing header: bodies hold no times, so that equal requests
+// have equal answers.
 
 #include <chrono>
 #include <string>
@@ -12,7 +12,7 @@ class Phases {
  public:
   // What has passed since the last phase ended (or since construction) was the phase `name`.
   void end(std::string_view name);
-  // "read;dur=0.063, refine;dur=0.049", in milliseconds.  [W3C Server Timing]
+  // "read;dur=0.063, refine;dur=0.049", in milliseconds, as https://www.w3.org/TR/server-timing has it.
   const std::string& header() const { return header_; }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 // Memory that one curve after the other takes and gives back. A grant only ever grows; asked for every curve
-// anew it would count the same bytes again and again.
+// anew it would count the same bytes again and again. For one thread, unlike other grants: work on one curve takes its
+// memory where it is called.
 
 #include "core/base/budget.h"
 
@@ -16,11 +17,12 @@ class ReusedMemory final : public MemoryGrant {
   // What was taken since there were `used` bytes of it is free again.
   void free_to(Count used) { used_ = used; }
   Result<void> take(Count bytes) override {
+    if (used_ + bytes > most_) {
+      if (auto taken = outer_.take_memory(used_ + bytes - most_); !taken) return taken;
+      most_ = used_ + bytes;
+    }
     used_ += bytes;
-    if (used_ <= most_) return {};
-    const Count more = used_ - most_;
-    most_ = used_;
-    return outer_.take_memory(more);
+    return {};
   }
   // The budget for work on one curve. Must not outlive this.
   const Budget& budget() const { return inner_; }

@@ -177,6 +177,18 @@ TEST(CurveTasks, measure_a_circle) {
   EXPECT_EQ(ask(Kind::measure, with(circle(), {{"flatten", 0}}))["where"], json({"flatten"}));
 }
 
+TEST(CurveTasks, measure_blames_weights_too_far_apart_on_their_place_in_the_body) {
+  const json lines{{"type", "nurbs"},
+                   {"order", 2},
+                   {"curveVertexCounts", {2, 3}},
+                   {"knots", {0, 0, 1, 1, 0, 0, 1, 2, 2}},
+                   {"points", {{0, 0}, {1, 0}, {0, 0}, {1, 1}, {2, 0}}},
+                   {"pointWeights", {1, 1, 1, 1e-200, 1}}};
+  const json answer = ask(Kind::measure, lines);
+  EXPECT_EQ(answer["code"], "out_of_range") << answer;
+  EXPECT_EQ(answer["where"], (json{"pointWeights", 3})) << answer;
+}
+
 TEST(CurveTasks, measure_how_fast_the_polygon_comes) {
   const json answer = ask(Kind::measure, with(cubic(), {{"convergence", 5}}));
   const json& convergence = answer["measures"][0]["convergence"];

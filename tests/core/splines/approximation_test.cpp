@@ -46,6 +46,24 @@ TEST(JoinedCurve, bounds_what_each_part_lost_and_moved) {
   EXPECT_DOUBLE_EQ(joined.whole->bound, 0.7);
 }
 
+// Both ends at a gap move, that of the part before, too, and a later gap may be larger.
+TEST(JoinedCurve, bounds_what_the_end_of_an_earlier_part_moved) {
+  JoinedCurve joined;
+  ASSERT_TRUE(append(joined, {line(0, 0, 1, 0), 0.5}, 0.1, {}));
+  ASSERT_TRUE(append(joined, {line(1, 0.2, 2, 0), 0.01}, 0.4, {}));
+  EXPECT_DOUBLE_EQ(joined.whole->bound, 0.7);
+  ASSERT_TRUE(append(joined, {line(2, 0, 3, 0), 0}, 0.8, {}));
+  EXPECT_DOUBLE_EQ(joined.whole->bound, 0.9);
+}
+
+TEST(JoinedCurve, says_how_far_apart_the_ends_are_however_near) {
+  JoinedCurve joined;
+  ASSERT_TRUE(append(joined, {line(0, 0, 1, 0), 0}, 0, {}));
+  const auto refused = append(joined, {line(1, 1e-9, 2, 0), 0}, 1e-10, {});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message, "the curves are 1e-09 apart where they should meet; 1e-10 are allowed");
+}
+
 TEST(JoinedCurve, refuses_ends_further_apart_than_both_tolerances) {
   JoinedCurve joined;
   ASSERT_TRUE(append(joined, {line(0, 0, 1, 0), 0}, 0.1, {}));

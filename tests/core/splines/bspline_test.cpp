@@ -237,6 +237,8 @@ TEST(Spline, check_names_the_first_fault) {
   const auto at = [](const char* name, std::uint64_t i) { return Path{name, i}; };
   EXPECT_EQ(fault([](Spline& s) { s.degree = 0; }).where, Path{"degree"});
   EXPECT_EQ(fault([](Spline& s) { s.degree = 64; }).where, Path{"degree"});
+  EXPECT_EQ(fault([](Spline& s) { s.width = 0; }).where, Path{"points"});
+  EXPECT_EQ(fault([](Spline& s) { s.width = 1; }).where, Path{"points"});  // a weight and no coordinate
   EXPECT_EQ(fault([](Spline& s) { s.points.pop_back(); }).code, ErrorCode::wrong_length);
   EXPECT_EQ(fault([](Spline& s) { s.points.resize(6); }).code, ErrorCode::too_few_points);
   EXPECT_EQ(fault([](Spline& s) { s.points[4] = std::nan(""); }).where, at("points", 4));
