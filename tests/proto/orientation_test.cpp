@@ -106,7 +106,9 @@ TEST(orientation, holds_for_faces_that_are_split) {
                      {"faceVertexIndices", {{0, 1, 2, 3}}},
                      {"orientation", "leftHanded"},
                      {"options", {{"level", 0}, {"normals", true}, {"triangulate", true}}}};
-  for (const json& normal : answered(body)["normals"]) EXPECT_EQ(normal, json({0.0, 0.0, 1.0}));
+  const json answer = answered(body);
+  EXPECT_EQ(answer["normals"].size(), 4u);
+  for (const json& normal : answer["normals"]) EXPECT_EQ(normal, json({0.0, 0.0, 1.0}));
 }
 
 TEST(orientation, verifies) {

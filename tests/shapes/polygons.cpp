@@ -247,7 +247,7 @@ std::vector<NamedShape> polygon_shapes() {
     add("cube_dart_" + word, with_crease(quad_cube(), {0, 1}, {s}));
     add("cube_corner_" + word, with_corner(quad_cube(), 7, s));
     add("prism_crease_" + word, with_crease(prism(5), {0, 1, 2}, {s, 0.5f * s}));
-    add("grid_crossing_" + word, with_crease(with_crease(quad_grid(4, 4), {10, 11, 12, 13, 14}, {s}),
+    add("grid_crossing_" + word, with_crease(with_crease(quad_grid(4, 4), {10, 11, 12, 13, 14}, {s, s, s, s}),
                                              {2, 7, 12, 17, 22}, {1.3f, 1.3f, 2.2f, 3}));
   }
   return shapes;

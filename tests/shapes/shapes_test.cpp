@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/shapes/build.h"
+#include "tests/shapes/polygons.h"
 
 namespace subdivd::shapes {
 namespace {
@@ -223,6 +224,27 @@ TEST(BigTorus, has_two_triangles_per_quad_and_mixed_valences) {
   std::set<Index> seen;
   for (const auto& [point, valence] : valences(mesh)) seen.insert(valence);
   EXPECT_THAT(std::vector(seen.begin(), seen.end()), testing::IsSupersetOf({5u, 6u, 7u}));
+}
+
+// ControlMesh::check() takes triangles alone: what it would see of their arrays.
+TEST(PolygonShapes, have_arrays_that_fit_together) {
+  for (const auto& [name, mesh] : polygon_shapes()) {
+    SCOPED_TRACE(name);
+    Count corners = 0, edges = 0, points = 0;
+    for (const Index count : mesh.face_vertex_counts) corners += count;
+    if (!mesh.face_vertex_counts.empty()) {
+      EXPECT_EQ(corners, mesh.face_vertex_indices.size());
+    }
+    for (const Index index : mesh.face_vertex_indices) EXPECT_LT(index, mesh.point_count());
+    for (const Index length : mesh.crease_lengths) {
+      points += length;
+      edges += length - 1;
+    }
+    EXPECT_EQ(points, mesh.crease_indices.size());
+    EXPECT_TRUE(mesh.crease_sharpnesses.size() == edges ||
+                mesh.crease_sharpnesses.size() == mesh.crease_lengths.size());
+    EXPECT_EQ(mesh.corner_indices.size(), mesh.corner_sharpnesses.size());
+  }
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(Conversion, keeps_the_points_of_the_curve) {
   for (const CurveWrap wrap : kWraps)
     for (const Spline& spline :
          {spline_of_bspline(points, 3, wrap, 3), spline_of_catmull_rom(points, 3, wrap, Spacing::uniform)}) {
-      const Spline at_zero = *reparametrized(spline, 0, spline.end() - spline.begin());
+      const Spline at_zero = *reparametrize(spline, 0, spline.end() - spline.begin());
       EXPECT_LT(samples::deviation(at_zero,
                                    spline_of_bezier(*bezier_points(spline, {}), 3, CurveWrap::nonperiodic)),
                 1e-12);
@@ -199,7 +199,7 @@ TEST(Conversion, keeps_the_points_of_the_curve) {
   // Degrees 1 and 2 are cubic, too.
   for (const Index degree : {1u, 2u}) {
     const Spline spline = spline_of_bspline(points, 3, CurveWrap::nonperiodic, degree);
-    const Spline at_zero = *reparametrized(spline, 0, spline.end() - spline.begin());
+    const Spline at_zero = *reparametrize(spline, 0, spline.end() - spline.begin());
     EXPECT_LT(
         samples::deviation(at_zero, spline_of_bezier(*bezier_points(spline, {}), 3, CurveWrap::nonperiodic)),
         1e-12);

@@ -36,7 +36,7 @@ ControlCurves nurbs() {
   curves.vertex_counts = {9, 5};
   Nurbs& knots = nurbs_of(curves);
   knots.orders = {3, 4};
-  curves.points = projected(circle);
+  curves.points = control_points_of(circle);
   for (const double x : some_points(5)) curves.points.push_back(x);
   knots.weights = weights(circle);
   knots.weights.insert(knots.weights.end(), 5, 2.0);

@@ -211,7 +211,8 @@ TEST(ArcLength, with_weights_far_apart_is_right) {
   // A quarter of a circle, whose weights 1, c s, c^2 s^2 ... change its speed but not its shape.
   for (const double factor : {1e3, 1e6, 1e12, 1e30}) {
     Spline arc = bezier(2, {1, 0, 1, 1, 0, 1});
-    arc.points = homogeneous(arc.points, 2, std::vector<double>{1, std::sqrt(0.5) * factor, factor * factor});
+    arc.points =
+        to_homogeneous(arc.points, 2, std::vector<double>{1, std::sqrt(0.5) * factor, factor * factor});
     arc.rational = true, arc.width = 3;
     const ArcLength length = measured(arc);
     EXPECT_NEAR(length.length, std::numbers::pi / 2, length.error_bound + 1e-13) << factor;

@@ -181,7 +181,7 @@ TEST(Bounds, stop_when_nobody_waits) {
 
 TEST(Bounds, refuse_weights_that_are_too_far_apart) {
   Spline spline = bezier(1, {0, 1, 2});
-  spline.points = homogeneous(spline.points, 1, std::vector<double>{1, 1, 1e-200});
+  spline.points = to_homogeneous(spline.points, 1, std::vector<double>{1, 1, 1e-200});
   spline.rational = true, spline.width = 2;
   const auto box = bounds(spline, Budget{});
   ASSERT_FALSE(box.ok());
@@ -200,7 +200,7 @@ TEST(Bounds, refuse_points_that_outgrow_doubles_when_divided) {
 TEST(Bounds, with_weights_at_the_limit_are_right) {
   // x = u^2 w / ((1-u)^2 + 2u(1-u) + u^2 w): close to 0 until the very end, where it is 1.
   Spline spline = bezier(1, {0, 0, 1});
-  spline.points = homogeneous(spline.points, 1, std::vector<double>{1, 1, 0x1p-499});
+  spline.points = to_homogeneous(spline.points, 1, std::vector<double>{1, 1, 0x1p-499});
   spline.rational = true, spline.width = 2;
   const Box box = box_of(spline);
   EXPECT_EQ(box.low[0], 0);
@@ -209,9 +209,9 @@ TEST(Bounds, with_weights_at_the_limit_are_right) {
 
 TEST(Localized, keeps_coordinates_within_one_and_brings_them_back) {
   for (const auto& [name, spline] : samples::all_splines()) {
-    const auto local = localized(spline);
+    const auto local = to_local_coordinates(spline);
     ASSERT_TRUE(local.ok());
-    const auto before = projected(spline), after = projected(local->spline);
+    const auto before = control_points_of(spline), after = control_points_of(local->spline);
     for (Count i = 0; i < before.size(); ++i) {
       EXPECT_LE(std::abs(after[i]), 1) << name;
       EXPECT_NEAR(local->to_global(static_cast<Index>(i % spline.dimension()), after[i]), before[i], 4e-16)
@@ -222,9 +222,9 @@ TEST(Localized, keeps_coordinates_within_one_and_brings_them_back) {
 
 TEST(Localized, of_coordinates_of_any_size_loses_none) {
   // A flat curve: constant 1 in x, of size 1e-200 in y; the unit follows what varies.
-  const auto local = localized(bezier(2, {1, -1e-200, 1, 3e-200, 1, 1e-200}));
+  const auto local = to_local_coordinates(bezier(2, {1, -1e-200, 1, 3e-200, 1, 1e-200}));
   ASSERT_TRUE(local.ok());
-  const auto points = projected(local->spline);
+  const auto points = control_points_of(local->spline);
   EXPECT_EQ(points[0], 0);
   EXPECT_NEAR(points[3] - points[1], 2 * (points[5] - points[1]), 1e-15);
   EXPECT_GT(points[3] - points[1], 0.9);

@@ -99,20 +99,20 @@ TEST(Join, refuses_a_gap_and_tells_how_wide_it_is) {
 
 TEST(Reversed, runs_backwards_and_twice_is_the_same) {
   for (const auto& [name, spline] : samples::all_splines()) {
-    const Spline back = reversed(spline);
+    const Spline back = reverse(spline);
     ASSERT_TRUE(back.check()) << name;
     for (const double t : samples::parameters(spline, 100)) {
       const double mirrored = std::clamp(spline.begin() + (spline.end() - t), spline.begin(), spline.end());
       EXPECT_LT(samples::distance(samples::point_at(spline, t), samples::point_at(back, mirrored)), 1e-12)
           << name;
     }
-    EXPECT_EQ(reversed(back).points, spline.points);
+    EXPECT_EQ(reverse(back).points, spline.points);
   }
 }
 
 TEST(Reparametrized, goes_through_the_same_points) {
   for (const auto& [name, spline] : samples::all_splines()) {
-    const auto moved = reparametrized(spline, -5, 20);
+    const auto moved = reparametrize(spline, -5, 20);
     ASSERT_TRUE(moved) << name;
     EXPECT_EQ(moved->begin(), -5);
     EXPECT_EQ(moved->end(), 20);
@@ -124,10 +124,10 @@ TEST(Reparametrized, goes_through_the_same_points) {
           << name;
     }
   }
-  EXPECT_FALSE(reparametrized(samples::circle(), 1, 1).ok());
-  EXPECT_FALSE(reparametrized(samples::circle(), 0, INFINITY).ok());
+  EXPECT_FALSE(reparametrize(samples::circle(), 1, 1).ok());
+  EXPECT_FALSE(reparametrize(samples::circle(), 0, INFINITY).ok());
   // So short that knots fall together.
-  EXPECT_FALSE(reparametrized(samples::circle(), 1, std::nextafter(1.0, 2.0)).ok());
+  EXPECT_FALSE(reparametrize(samples::circle(), 1, std::nextafter(1.0, 2.0)).ok());
 }
 
 TEST(BezierPieces, are_the_curve) {

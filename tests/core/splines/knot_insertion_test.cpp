@@ -52,7 +52,7 @@ TEST(KnotInsertion, as_often_as_the_degree_puts_a_point_onto_the_curve) {
     const double t = (spline.begin() + 2 * spline.end()) / 3;
     const auto inserted = insert_knot(spline, t, spline.degree);
     ASSERT_TRUE(inserted) << name;
-    const std::vector<double> expected = samples::point_at(spline, t), all = projected(*inserted);
+    const std::vector<double> expected = samples::point_at(spline, t), all = control_points_of(*inserted);
     double nearest = 1e300;
     for (Count i = 0; i < inserted->point_count(); ++i) {
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(i * spline.dimension());

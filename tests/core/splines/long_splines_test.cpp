@@ -28,7 +28,7 @@ Spline wave(Index degree, Index dimension, Count count, bool rational = false) {
   for (Count i = 0; i < count + degree + 1; ++i) spline.knots.push_back(static_cast<double>(i));
   for (Count k = 0; k < count * dimension; ++k) spline.points.push_back(std::sin(static_cast<double>(k)));
   if (!rational) return spline;
-  spline.points = homogeneous(spline.points, dimension, std::vector<double>(count, 1.5));
+  spline.points = to_homogeneous(spline.points, dimension, std::vector<double>(count, 1.5));
   spline.rational = true;
   ++spline.width;
   return spline;
@@ -52,9 +52,9 @@ TEST(LongSplines, stop_while_they_are_edited) {
   const Spline spline = wave(3, 3, 1'000'000);
   expect_stops_midway([&](const Budget& budget) { return part(spline, 4.5, 999'000, budget); });
   expect_stops_midway([&](const Budget& budget) { return split(spline, 500'000, budget); });
-  expect_stops_midway([&](const Budget& budget) { return reparametrized(spline, 0, 1, budget); });
+  expect_stops_midway([&](const Budget& budget) { return reparametrize(spline, 0, 1, budget); });
   expect_stops_midway([&](const Budget& budget) {
-    return stoppable(budget, [&](const Pace& pace) { return reversed(spline, pace); });
+    return stoppable(budget, [&](const Pace& pace) { return reverse(spline, pace); });
   });
   expect_stops_midway([&](const Budget& budget) { return join(spline, spline, 1000, budget); });
 }
@@ -68,7 +68,7 @@ TEST(LongSplines, stop_while_their_degree_changes) {
 TEST(LongSplines, stop_while_they_are_measured) {
   const Spline spline = wave(1, 2, 300'000);
   const std::vector<double> far{100, 100};
-  expect_stops_midway([&](const Budget& budget) { return localized(spline, budget); });
+  expect_stops_midway([&](const Budget& budget) { return to_local_coordinates(spline, budget); });
   expect_stops_midway([&](const Budget& budget) { return bounds(spline, budget); });
   expect_stops_midway([&](const Budget& budget) { return closest_point(spline, far, budget); });
   expect_stops_midway([&](const Budget& budget) {

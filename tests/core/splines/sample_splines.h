@@ -43,7 +43,7 @@ inline Spline random_spline(unsigned seed, Index degree, Index dimension, bool r
   if (!rational) return spline;
   std::vector<double> weights;
   for (Count k = 0; k < count; ++k) weights.push_back(between(random, 0.5, 2));
-  spline.points = homogeneous(spline.points, dimension, weights);
+  spline.points = to_homogeneous(spline.points, dimension, weights);
   spline.rational = true;
   ++spline.width;
   return spline;
@@ -62,7 +62,7 @@ inline Spline circle() {
   const double s = std::sqrt(0.5);
   const std::vector<double> points{1, 0, 1, 1, 0, 1, -1, 1, -1, 0, -1, -1, 0, -1, 1, -1, 1, 0};
   const std::vector<double> weights{1, s, 1, s, 1, s, 1, s, 1};
-  return {2, 3, true, false, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, homogeneous(points, 2, weights)};
+  return {2, 3, true, false, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, to_homogeneous(points, 2, weights)};
 }
 
 // All degrees up to 9, plane and space, with and without weights, clamped and not, simple knots and such of

@@ -189,7 +189,7 @@ std::optional<Spline> formula_of(const ControlCurves& curves) {
   return std::nullopt;
 }
 
-ControlCurves reversed(const ControlCurves& curves) {
+ControlCurves reverse(const ControlCurves& curves) {
   const Index width = curves.width;
   const bool hermite = std::holds_alternative<Hermite>(curves.basis);
   // A point and its tangent stay together; a closed curve keeps its first point.

@@ -53,7 +53,7 @@ Inside inside(const ControlCurves& curves, Count points);
 std::optional<Spline> formula_of(const ControlCurves& curves);
 
 // Same segments, run through backwards; closed curves from the same point on.
-ControlCurves reversed(const ControlCurves& curves);
+ControlCurves reverse(const ControlCurves& curves);
 // Coordinate k alone.
 ControlCurves coordinate(const ControlCurves& curves, Index k);
 // Tangents are made from distances, which all coordinates have a part in.

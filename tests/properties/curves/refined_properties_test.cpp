@@ -182,7 +182,7 @@ TEST_P(RefinedCurve, running_back_gives_the_same_points) {
   for (const Count more : {0u, 7u}) {
     const auto curves = random_curve(GetParam(), more, 2);
     const Index level = 3;
-    const Answer forth = refined(curves, level), back = refined(reversed(curves), level);
+    const Answer forth = refined(curves, level), back = refined(reverse(curves), level);
     expect_same(run_back(curves, level, back.points()), forth.points(), "points", 1e-13);
     expect_same(run_back(curves, level, back.limits), forth.limits, "limits", 1e-13);
     if (std::holds_alternative<Nurbs>(rule().basis))
