@@ -47,7 +47,7 @@ std::vector<Row> left_vectors(const EigenSpace& space) {
 
 // The part of `target` in the space of those vectors: a left eigenvector too, and whatever symmetry target
 // and matrix share it has as well. So every choice among vectors of one eigenvalue is made.
-Row projected(const Row& target, const std::vector<Row>& vectors) {
+Row project(const Row& target, const std::vector<Row>& vectors) {
   Row sum(target.size());
   for (const Row& vector : vectors) subtract(sum, -dot(target, vector), vector);
   return sum;
@@ -118,7 +118,7 @@ std::optional<Error> set_smooth_tangents(Spectrum& s, const EigenSpace& space) {
   if (plane.size() != 2) return unexpected("the rule has no tangent plane: two vectors should belong to it");
   Row towards_e0(s.labels.size()), towards_e1(s.labels.size());
   towards_e0[1] = towards_e1[2] = 1;
-  Row u = projected(towards_e0, plane), v = projected(towards_e1, plane);
+  Row u = project(towards_e0, plane), v = project(towards_e1, plane);
   scale(u, 1 / u[1]);
   subtract(v, dot(v, u) / dot(u, u), u);
   scale(v, std::sqrt(dot(u, u) / dot(v, v)));
@@ -135,7 +135,7 @@ std::optional<Error> add_tangent_along(Spectrum& s, const Budget& budget) {
     for (const std::size_t j : kept) part.push_back(s.matrix[i * size + j]);
   const Result<EigenSystem> system = eigen_system(part, 3, budget);
   if (!system) return system.error();
-  const Row along = projected({1, 0, -1}, left_vectors(system->spaces[1]));
+  const Row along = project({1, 0, -1}, left_vectors(system->spaces[1]));
   Row mask(size);
   for (std::size_t k = 0; k < 3; ++k) mask[kept[k]] = along[k] / (along[0] - along[2]);
   s.tangent_masks.push_back(std::move(mask));
@@ -149,7 +149,7 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
   Row target(size);
   for (std::size_t k = 1; k < size; ++k) target[k] = !inner || (k > 1 && k + 1 < size) ? 1 : 0;
   for (std::size_t i = 1; i < system.spaces.size(); ++i) {
-    Row mask = projected(target, left_vectors(system.spaces[i]));
+    Row mask = project(target, left_vectors(system.spaces[i]));
     const double sum = dot(mask, target);
     // What is antisymmetric has no part of the target but rounding errors.
     if (sum < 1e-12 * dot(target, target)) continue;
@@ -221,7 +221,7 @@ void set_derivative(Spectrum& s, const EigenSpace& space) {
   const std::size_t n = s.labels.size();
   Row places(n);
   for (std::size_t k = 0; k < n; ++k) places[k] = static_cast<double>(k) - static_cast<double>(n - 1) / 2;
-  Row mask = projected(places, left_vectors(space));
+  Row mask = project(places, left_vectors(space));
   scale(mask, 1 / dot(mask, places));
   s.tangent_masks = {std::move(mask)};
 }

@@ -43,7 +43,7 @@ Spline spline_on_knots(const ControlCurves& curves, const Nurbs& nurbs, Count cu
     return spline;
   }
   spline.points =
-      homogeneous(points, curves.width, std::span(nurbs.weights).subspan(place.points, count), pace);
+      to_homogeneous(points, curves.width, std::span(nurbs.weights).subspan(place.points, count), pace);
   spline.rational = true;
   ++spline.width;
   return spline;

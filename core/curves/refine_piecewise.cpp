@@ -65,7 +65,7 @@ Result<void> add_refined(const Spline& spline, const CurveOptions& options, cons
   if (!refined) return refined.error();
   const Count before = all.points.size();
   if (Nurbs* on_knots = std::get_if<Nurbs>(&all.basis)) {
-    pace.append(projected(*refined, pace), all.points);
+    pace.append(control_points_of(*refined, pace), all.points);
     pace.append(weights(*refined, pace), on_knots->weights);
     pace.append(refined->knots, on_knots->knots);
     on_knots->orders.push_back(refined->degree + 1);

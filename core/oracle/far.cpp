@@ -179,7 +179,7 @@ template <class Real>
 Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const RefineOptions& options,
                                       const Primvar& primvar, int channel, const FarLevel<Real>& level,
                                       const Pace& pace) {
-  auto control = converted<Real>(primvar.values, {"primvars", primvar.name, "values"}, pace);
+  auto control = convert_values<Real>(primvar.values, {"primvars", primvar.name, "values"}, pace);
   if (!control) return control.error();
   const Index width = primvar.element_size;
   FarPrimvar<Real> result;
@@ -291,7 +291,7 @@ Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRe
   result.level = options.level;
   result.base_points = static_cast<Index>(mesh.point_count());
   take_topology(refiner, options.level, result, pace);
-  auto control = converted<Real>(mesh.points, {"points"}, pace);
+  auto control = convert_values<Real>(mesh.points, {"points"}, pace);
   if (!control) return control.error();
   result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3, pace);
   if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result, pace);

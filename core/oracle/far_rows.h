@@ -49,7 +49,7 @@ class Rows {
 
 // The values in Real; out_of_range at `where` when one does not fit.
 template <class Real>
-Result<Buffer<Real>> converted(std::span<const double> values, Path where, const Pace& pace) {
+Result<Buffer<Real>> convert_values(std::span<const double> values, Path where, const Pace& pace) {
   Buffer<Real> result(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     pace.spend(1);

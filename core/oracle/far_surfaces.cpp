@@ -203,7 +203,7 @@ namespace {
 template <class Real>
 Result<FarSurface> refine_grid(const FarSurface& from, const FarSurfaceOptions& options, const Budget& budget,
                                const Pace& pace) {
-  auto points = converted<Real>(from.points, {"points"}, pace);
+  auto points = convert_values<Real>(from.points, {"points"}, pace);
   if (!points) return points.error();
   Result<FarRefiner> made = make_refiner(from, pace);
   if (!made) return made.error();

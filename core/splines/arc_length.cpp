@@ -116,7 +116,7 @@ Result<Survey> first_survey(const Spline& spline, const Ruler& ruler, double a, 
     const double from = std::max(a, begin), to = std::min(b, end);
     if (!(from < to)) continue;
     pace.spend(kStepsOfPiece);
-    const Result<LocalSpline> local = localized(window(spline, span));
+    const Result<LocalSpline> local = to_local_coordinates(window(spline, span));
     if (!local) return local.error();
     SpeedPiece piece = ruler.piece_of(*local);
     if (from > begin || to < end) {

@@ -37,7 +37,7 @@ struct ArcLength {
 // Length of the curve over [a, b], begin() <= a <= b <= end(). `spline` must have passed check().
 // Fails with out_of_range (at "from", "to", "tolerance": the tolerance is below what rounding allows, the
 // message says what was reached), with too_large when max_pieces do not suffice (the message says the same;
-// no bound is returned that was not reached), as localized() does, and as the budget says.
+// no bound is returned that was not reached), as to_local_coordinates() does, and as the budget says.
 Result<ArcLength> arc_length(const Spline& spline, double a, double b, const LengthOptions& options,
                              const Budget& budget);
 // Over the whole domain.

@@ -61,14 +61,14 @@ Result<int> weight_exponent(const Spline& spline, const Pace& pace) {
 // --- The highest point of one coordinate ------------------------------------------------------------------
 
 // A piece of one coordinate, and what it does not exceed.
-struct Slope {
+struct BoundedPiece {
   double top;
   Count number;  // of the curve's pieces, or in the store
   Index depth;   // 0: a piece of the curve
-  bool operator<(const Slope& other) const { return top < other.top; }
+  bool operator<(const BoundedPiece& other) const { return top < other.top; }
 };
 
-// Largest of +-x_i, projected. The curve is inside the hull of its control points.
+// The largest control value. The curve is inside the hull of its control points.
 double top_of(const BezierPiece& piece, Index width) {
   double top = piece.points[0] / (width == 2 ? piece.points[1] : 1);
   for (Count i = width; i < piece.points.size(); i += width)
@@ -103,16 +103,16 @@ Result<double> highest(const Spline& local, const BezierPieces& pieces, Index k,
   const Count steps = 4 * Count{local.degree + 1} * width;
   const double tolerance = 8 * (local.degree + 1) * kRoundoff;
   double attained = -1;
-  std::vector<Slope> heap;
+  std::vector<BoundedPiece> heap;
   PieceStore store;  // of halves
   const auto matters = [&](const BezierPiece& piece, double& top) {
     attained = std::max(attained, attained_by(piece, width));
     top = top_of(piece, width);
     return top > attained;
   };
-  const auto put = [&](const Slope& slope) {
+  const auto put = [&](const BoundedPiece& bounded) {
     pace.make_room(heap, 1);
-    heap.push_back(slope);
+    heap.push_back(bounded);
     std::push_heap(heap.begin(), heap.end());
   };
   BezierPiece piece;
@@ -126,15 +126,15 @@ Result<double> highest(const Spline& local, const BezierPieces& pieces, Index k,
   while (!heap.empty() && heap.front().top > attained + tolerance && heap.front().depth < kMaxDepth) {
     pace.spend(steps * (local.degree + 2));
     std::pop_heap(heap.begin(), heap.end());
-    const Slope slope = heap.back();
+    const BoundedPiece bounded = heap.back();
     heap.pop_back();
-    if (slope.depth == 0)
-      take_coordinate(pieces, slope.number, local, k, sign, piece);
+    if (bounded.depth == 0)
+      take_coordinate(pieces, bounded.number, local, k, sign, piece);
     else
-      piece = store.take(slope.number);
+      piece = store.take(bounded.number);
     if (auto taken = memory.hold(heap.size() + 2); !taken) return taken.error();
     for (BezierPiece& half : halves(piece, width))
-      if (matters(half, top)) put({top, store.keep(std::move(half), pace), slope.depth + 1});
+      if (matters(half, top)) put({top, store.keep(std::move(half), pace), bounded.depth + 1});
   }
   return heap.empty() ? attained : std::max(attained, heap.front().top);
 }
@@ -147,7 +147,7 @@ double LocalSpline::to_global(Index k, double local) const {
 
 namespace {
 
-Result<LocalSpline> localized(const Spline& spline, const Pace& pace) {
+Result<LocalSpline> to_local_coordinates(const Spline& spline, const Pace& pace) {
   const Result<int> weight_shift = weight_exponent(spline, pace);
   if (!weight_shift) return weight_shift.error();
   auto control = control_box(spline, pace);
@@ -192,8 +192,8 @@ Result<LocalSpline> localized(const Spline& spline, const Pace& pace) {
 
 }  // namespace
 
-Result<LocalSpline> localized(const Spline& spline, const Budget& budget) {
-  return stoppable(budget, [&](const Pace& pace) { return localized(spline, pace); });
+Result<LocalSpline> to_local_coordinates(const Spline& spline, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) { return to_local_coordinates(spline, pace); });
 }
 
 Spline window(const Spline& spline, Count span) {
@@ -224,12 +224,12 @@ std::vector<double> product_weights(Index degree) {
 }
 
 Result<Box> bounds(const Spline& spline, const Budget& budget) {
-  const Result<LocalSpline> local = localized(spline, budget);
+  const Result<LocalSpline> local = to_local_coordinates(spline, budget);
   if (!local) return local.error();
   const auto pieces = bezier_pieces(local->spline, budget);
   if (!pieces) return pieces.error();
   // One heap at a time, of a coordinate alone and its weight.
-  GrowingMemory memory(budget, sizeof(Slope) + PieceStore::kBytes,
+  GrowingMemory memory(budget, sizeof(BoundedPiece) + PieceStore::kBytes,
                        kBytesPerBlock + 4 * (Count{spline.degree} + 1) * sizeof(double));
   return stoppable(budget, [&](const Pace& pace) -> Result<Box> {
     Box box = local->control;

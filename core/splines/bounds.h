@@ -20,7 +20,7 @@ struct Box {
 
 // The box that touches the curve (not its control points) on every side.
 // No side lies inside the curve by more than rounding, nor outside by more than 1e-12 of the longest side.
-// `spline` must have passed check(). Fails as localized() does, and as the budget says.
+// `spline` must have passed check(). Fails as to_local_coordinates() does, and as the budget says.
 //   Bezier pieces stay inside their control points' hull, whose distance from the curve falls with the square
 //   of the pieces' length.   [LaneRiesenfeld80]
 Result<Box> bounds(const Spline& spline, const Budget& budget);
@@ -41,7 +41,7 @@ struct LocalSpline {
 // curve lies.
 // Fails with out_of_range where a control point divided by its weight outgrows a double (at "points") or a
 // weight is less than 2^-500 of the largest (at "pointWeights").
-Result<LocalSpline> localized(const Spline& spline, const Budget& budget = {});
+Result<LocalSpline> to_local_coordinates(const Spline& spline, const Budget& budget = {});
 
 // The part of a spline on one span alone: degree + 1 points, the knots from span - degree to span + degree +
 // 1, domain [u_span, u_{span+1}].

@@ -29,7 +29,7 @@ struct Scene {
 
 // The point in the curve's local coordinates, times 2^-shift.
 Result<Scene> scene_of(const Spline& spline, std::span<const double> point, const Budget& budget) {
-  Result<LocalSpline> local = localized(spline, budget);
+  Result<LocalSpline> local = to_local_coordinates(spline, budget);
   if (!local) return local.error();
   const Index dimension = spline.dimension();
   // The difference of two doubles may outgrow one; half of it does not.

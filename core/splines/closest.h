@@ -31,7 +31,7 @@ struct ClosestPoint {
 // without being such circles take up to thousands. At most kMaxClosestPieces pieces are looked at.
 //
 // Fails with wrong_length and not_finite at "point", with out_of_range where the distance outgrows a double,
-// with too_large above kMaxClosestPieces, as localized() and evaluate() do, and as the budget says.
+// with too_large above kMaxClosestPieces, as to_local_coordinates() and evaluate() do, and as the budget says.
 Result<ClosestPoint> closest_point(const Spline& spline, std::span<const double> point, const Budget& budget);
 
 // Beyond the pieces of the spline itself.

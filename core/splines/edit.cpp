@@ -30,7 +30,7 @@ void make_rational(Spline& spline, const Pace& pace) {
   if (spline.rational) return;
   std::vector<double> ones;
   pace.fill(ones, spline.point_count(), 1);
-  spline.points = homogeneous(spline.points, spline.width, ones, pace);
+  spline.points = to_homogeneous(spline.points, spline.width, ones, pace);
   spline.rational = true;
   ++spline.width;
 }
@@ -152,7 +152,7 @@ Result<Spline> join(const Spline& first, const Spline& second, double gap, const
   return joined;
 }
 
-Spline reversed(const Spline& spline, const Pace& pace) {
+Spline reverse(const Spline& spline, const Pace& pace) {
   Spline back = copy_of(spline, pace);
   const Count points = spline.point_count(), knots = spline.knots.size();
   pace.in_blocks(
@@ -172,7 +172,7 @@ Spline reversed(const Spline& spline, const Pace& pace) {
   return back;
 }
 
-Result<Spline> reparametrized(const Spline& spline, double begin, double end, const Budget& budget) {
+Result<Spline> reparametrize(const Spline& spline, double begin, double end, const Budget& budget) {
   if (!(begin < end) || !std::isfinite(begin) || !std::isfinite(end) || !std::isfinite(end - begin))
     return Error{ErrorCode::out_of_range, "the new domain must have a finite length above 0"};
   return stoppable(budget, [&](const Pace& pace) -> Result<Spline> {

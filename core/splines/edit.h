@@ -30,10 +30,10 @@ Result<void> append(Spline& first, const Spline& second, double gap, const Budge
 
 // The same curve run through backwards: the point at t is now at begin() + end() - t.
 // Throws Stopped when the pace has no more to spend.
-Spline reversed(const Spline& spline, const Pace& pace = {});
+Spline reverse(const Spline& spline, const Pace& pace = {});
 
 // The same curve over [begin, end], by t -> begin + (t - old begin) * (end - begin) / (old end - old begin).
 // Both finite, begin < end, their distance finite (out_of_range).
-Result<Spline> reparametrized(const Spline& spline, double begin, double end, const Budget& budget = {});
+Result<Spline> reparametrize(const Spline& spline, double begin, double end, const Budget& budget = {});
 
 }  // namespace subdivd

@@ -122,7 +122,7 @@ Result<Polyline> local_polyline(const LocalSpline& local, const BezierPieces& pi
 
 Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, const Budget& budget) {
   if (auto checked = check_tolerance(options); !checked) return checked.error();
-  const Result<LocalSpline> local = localized(spline, budget);
+  const Result<LocalSpline> local = to_local_coordinates(spline, budget);
   if (!local) return local.error();
   const Index dimension = spline.dimension();
   const Count fitting = budget.max_bytes / ((Count{dimension} + 1) * sizeof(double));

@@ -29,7 +29,7 @@ struct Polyline {
 // is never exceeded.   [LaneRiesenfeld80] `spline` must have passed check(). Fails with out_of_range at
 // "tolerance" (not finite, not above 0, or less than rounding allows, which the message says), with too_large
 // where more than max_points or than fit the budget's bytes would be needed (predicted: how many there are at
-// least), as localized() does, and as the budget says.
+// least), as to_local_coordinates() does, and as the budget says.
 Result<Polyline> flatten(const Spline& spline, const FlattenOptions& options, const Budget& budget);
 
 }  // namespace subdivd

@@ -176,12 +176,12 @@ Result<Removal> remove_knot(const Spline& spline, double t, Index times, double 
   });
 }
 
-Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
-                              const Budget& budget) {
+Result<KnotRemovals> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
+                                  const Budget& budget) {
   if (auto fine = check_tolerance(tolerance); !fine) return std::move(fine).error();
-  return stoppable(budget, [&](const Pace& pace) -> Result<Thinning> {
+  return stoppable(budget, [&](const Pace& pace) -> Result<KnotRemovals> {
     LinkedKnots linked(spline, pace);
-    Thinning thinning{{{}, 0}, 0};
+    KnotRemovals removals{{{}, 0}, 0};
     for (Count k = 0; k < knots.size(); ++k) {
       pace.spend(kSearch);
       const auto there = linked.times(knots[k]);
@@ -194,13 +194,13 @@ Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knot
       const Spline& near = linked.around(knots[k]);
       pace.spend(kStepsOfRemoval * near.points.size());
       const auto next = removed_once(near, knots[k]);
-      if (!next || !(next->bound <= tolerance - thinning.result.bound)) continue;
+      if (!next || !(next->bound <= tolerance - removals.result.bound)) continue;
       linked.remove(next->spline);
-      ++thinning.removed;
-      thinning.result.bound += next->bound;
+      ++removals.removed;
+      removals.result.bound += next->bound;
     }
-    thinning.result.spline = linked.finish();
-    return thinning;
+    removals.result.spline = linked.finish();
+    return removals;
   });
 }
 
@@ -208,7 +208,7 @@ namespace {
 
 // One way through all knots inside the domain: removes those that cost at most `each`, no two neighbours, for
 // where a gap grows from one side rounding grows with it. Returns how many.
-Count thin_out(Approximation& curve, double each, double tolerance, const Pace& pace) {
+Count remove_cheap_knots(Approximation& curve, double each, double tolerance, const Pace& pace) {
   const Spline source = std::move(curve.spline);
   Passage passage(source, 0, pace);
   Count all = 0;
@@ -231,19 +231,19 @@ Count thin_out(Approximation& curve, double each, double tolerance, const Pace& 
 
 }  // namespace
 
-Result<Thinning> remove_knots(const Spline& spline, double tolerance, const Budget& budget) {
+Result<KnotRemovals> remove_knots(const Spline& spline, double tolerance, const Budget& budget) {
   if (auto fine = check_tolerance(tolerance); !fine) return std::move(fine).error();
   return stoppable(budget, [&](const Pace& pace) {
-    Thinning thinning{{copy_of(spline, pace), 0}, 0};
+    KnotRemovals removals{{copy_of(spline, pace), 0}, 0};
     // What costs nothing first: a knot that carries something costs little, too, as long as its neighbours
     // stand close, but they could not go any more.
     constexpr double kFactor = 16;
     double each = std::min(tolerance, 0x1p-50 * extent(spline, pace));
     while (true) {
-      const Count removed = thin_out(thinning.result, each, tolerance, pace);
-      thinning.removed += removed;
+      const Count removed = remove_cheap_knots(removals.result, each, tolerance, pace);
+      removals.removed += removed;
       if (removed > 0) continue;
-      if (each >= tolerance) return thinning;
+      if (each >= tolerance) return removals;
       each = each > 0 ? std::min(tolerance, each * kFactor) : tolerance;
     }
   });

@@ -35,7 +35,7 @@ struct Removal {
 Result<Removal> remove_knot(const Spline& spline, double t, Index times, double tolerance,
                             const Budget& budget = {});
 
-struct Thinning {
+struct KnotRemovals {
   Approximation result;
   Count removed = 0;
 };
@@ -44,12 +44,12 @@ struct Thinning {
 // removals together within `tolerance`: a knot that would cost more stays, and one that has been removed as
 // often as it stood there is passed over. Time by the number of knots and by that of the curve's, not by
 // their product. Fails as remove_knot(), a knot's place being {i}.
-Result<Thinning> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
-                              const Budget& budget);
+Result<KnotRemovals> remove_knots(const Spline& spline, std::span<const double> knots, double tolerance,
+                                  const Budget& budget);
 
 // Removes knots inside the domain until none is left that could be, the bounds of all removals together
 // within `tolerance`. The cheapest go first: in rounds whose allowed cost of a removal grows up to `tolerance`, and
 // of two neighbours only one in a round. Every pass over the curve is linear and polled.
-Result<Thinning> remove_knots(const Spline& spline, double tolerance, const Budget& budget);
+Result<KnotRemovals> remove_knots(const Spline& spline, double tolerance, const Budget& budget);
 
 }  // namespace subdivd

@@ -136,8 +136,8 @@ Result<double> check_parameter(const Spline& spline, double t) {
   return std::clamp(begin + rest, begin, end);
 }
 
-std::vector<double> homogeneous(std::span<const double> points, Index dimension,
-                                std::span<const double> weights, const Pace& pace) {
+std::vector<double> to_homogeneous(std::span<const double> points, Index dimension,
+                                   std::span<const double> weights, const Pace& pace) {
   const Count count = points.size() / dimension;
   std::vector<double> stored;
   stored.reserve(count * (Count{dimension} + 1));
@@ -149,7 +149,7 @@ std::vector<double> homogeneous(std::span<const double> points, Index dimension,
   return stored;
 }
 
-std::vector<double> projected(const Spline& spline, const Pace& pace) {
+std::vector<double> control_points_of(const Spline& spline, const Pace& pace) {
   std::vector<double> points;
   if (!spline.rational) {
     pace.copy(spline.points, points);

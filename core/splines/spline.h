@@ -54,10 +54,10 @@ Result<double> check_parameter(const Spline& spline, double t);
 // What goes through a whole curve takes a pace, and throws Stopped when that has no more to spend.
 
 // The stored point of coordinates `point` and weight w, and back.
-std::vector<double> homogeneous(std::span<const double> points, Index dimension,
-                                std::span<const double> weights, const Pace& pace = {});
+std::vector<double> to_homogeneous(std::span<const double> points, Index dimension,
+                                   std::span<const double> weights, const Pace& pace = {});
 // dimension() scalars per control point
-std::vector<double> projected(const Spline& spline, const Pace& pace = {});
+std::vector<double> control_points_of(const Spline& spline, const Pace& pace = {});
 // empty when it is not rational
 std::vector<double> weights(const Spline& spline, const Pace& pace = {});
 

@@ -18,7 +18,7 @@ struct Basis {
   std::array<Count, 4> at;
 };
 
-Basis reversed(Basis b) {
+Basis reverse(Basis b) {
   std::reverse(b.value.begin(), b.value.end());
   std::reverse(b.slope.begin(), b.slope.end());
   std::reverse(b.bend.begin(), b.bend.end());
@@ -59,7 +59,7 @@ Basis quadratic_at_begin(double s) {
   return {{w * w, (2 - 1.5 * s) * s, s * s / 2, 0}, {-2 * w, 2 - 3 * s, s, 0}, {2, -3, 1, 0}, {}};
 }
 Basis quadratic_at_end(double s) {
-  Basis b = reversed(quadratic_at_begin(1 - s));  // its weight of 0 came to the front
+  Basis b = reverse(quadratic_at_begin(1 - s));  // its weight of 0 came to the front
   for (std::array<double, 4>* row : {&b.value, &b.slope, &b.bend})
     std::rotate(row->begin(), row->begin() + 1, row->end());
   return b;
@@ -99,7 +99,7 @@ Basis cubic_basis(const Direction& d, double t) {
   const bool first = pinned && span == 0, last = pinned && span == last_span;
   Basis b = first && last ? line(s)
             : first       ? cubic_at_begin(s)
-            : last        ? reversed(cubic_at_begin(1 - s))
+            : last        ? reverse(cubic_at_begin(1 - s))
                           : cubic_inside(s);
   // A neighbour that an open direction lacks has weight 0: any other stands for it.
   b.at = {d.before(span), span, d.after(span), d.after(d.after(span))};

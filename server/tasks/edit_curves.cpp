@@ -99,12 +99,11 @@ Result<Approximation> convert_curve(Spline spline, const CurveTask& task, double
     if (auto done = reduce_to_degree(result, *task.to_degree, tolerance, memory); !done)
       return std::move(done).error();
   if (task.reversed) {
-    auto back = stoppable(budget, [&](const Pace& pace) { return reversed(result.spline, pace); });
+    auto back = stoppable(budget, [&](const Pace& pace) { return reverse(result.spline, pace); });
     if (auto done = put(std::move(back), "reversed"); !done) return std::move(done).error();
   }
   if (task.domain && !task.join)
-    if (auto done =
-            put(reparametrized(result.spline, (*task.domain)[0], (*task.domain)[1], budget), "domain");
+    if (auto done = put(reparametrize(result.spline, (*task.domain)[0], (*task.domain)[1], budget), "domain");
         !done)
       return std::move(done).error();
   return result;
@@ -125,7 +124,7 @@ Result<std::vector<double>> points_in(CurveForm form, const Spline& spline, doub
     case CurveForm::nurbs:
       break;
   }
-  return stoppable(budget, [&](const Pace& pace) { return projected(spline, pace); });
+  return stoppable(budget, [&](const Pace& pace) { return control_points_of(spline, pace); });
 }
 
 CurveBasis basis_of(CurveForm form) {
@@ -199,7 +198,7 @@ class Collector {
     if (!joined_.whole) return std::move(all_);
     all_.answer.curves.resize(1);
     if (task_.domain) {
-      auto moved = reparametrized(joined_.whole->spline, (*task_.domain)[0], (*task_.domain)[1], budget_);
+      auto moved = reparametrize(joined_.whole->spline, (*task_.domain)[0], (*task_.domain)[1], budget_);
       if (!moved) return at_member(std::move(moved).error(), "domain");
       joined_.whole->spline = *std::move(moved);
     }
