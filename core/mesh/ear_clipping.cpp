@@ -168,6 +168,7 @@ bool PolygonCutter::is_ear(Index k, Ears ears, const Pace& pace) const {
 // Appends the triangles; false when there is no ear left, though there are corners.
 bool PolygonCutter::clip(const Pace& pace, std::vector<Index>& out) {
   link(pace);
+  if (flat_.size() * reflex_.size() > kMostSteps) return false;
   Index left = static_cast<Index>(flat_.size()), last = 0;
   for (const Ears ears : {Ears::strict, Ears::relaxed}) {
     if (ears == Ears::relaxed) {

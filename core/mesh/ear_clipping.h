@@ -13,6 +13,9 @@ namespace subdivd {
 // Cuts polygons of the same points, one after the other; keeps its working memory between them.
 class PolygonCutter {
  public:
+  // Corners times those that are not convex: a quarter of a second. 4,096 corners of any kind take no more.
+  static constexpr Count kMostSteps = Count{1} << 24;
+
   // `points`: x y z per point, finite; must outlive the cutter. `most_corners`: of the largest polygon.
   PolygonCutter(std::span<const double> points, Count most_corners)
       : points_(points), most_corners_(most_corners) {}
@@ -28,7 +31,8 @@ class PolygonCutter {
   //
   // A polygon is seen along its Newell normal. It becomes the fan (0,1,2), (0,2,3), ... where it is convex
   // there or the fan does not fold; otherwise ears are clipped, in order, each triangle beginning with its
-  // first corner. Where that finds no end (the polygon crosses itself, or has no area), it becomes the fan.
+  // first corner. Where that finds no end (the polygon crosses itself, or has no area) or would take more than
+  // kMostSteps, it becomes the fan.
   // All that is decided is the same for coordinates times a power of two. Time: the number of corners times 1
   // + those that are not convex, 10 to 20 ns each; paced.
   void cut(std::span<const Index> corners, const Pace& pace, std::vector<Index>& out);

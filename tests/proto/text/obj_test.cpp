@@ -185,10 +185,6 @@ TEST(obj, what_is_not_kept_is_named) {
               ElementsAre(HasSubstr("tags that have no meaning")));
 }
 
-struct BadLine {
-  const char *line, *expected;
-};
-
 TEST(obj, faults_name_their_line) {
   for (const BadLine& bad :
        {BadLine{"v 1 2", "wrong_length line 5: the line ends where a coordinate must stand"},

@@ -184,10 +184,6 @@ TEST(off, lines_that_are_missing_or_too_many_are_refused) {
               HasSubstr("wrong_length line 8: follows the last of the 1 faces"));
 }
 
-struct BadLine {
-  const char *line, *expected;
-};
-
 TEST(off, faults_of_vertices_name_their_line) {
   for (const BadLine& bad :
        {BadLine{"1 0", "wrong_length line 4: the line ends where a coordinate must stand"},

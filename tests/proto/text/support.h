@@ -8,6 +8,11 @@
 
 namespace subdivd::proto::test {
 
+// A line that is at fault, and what the refusal says of it.
+struct BadLine {
+  const char *line, *expected;
+};
+
 // "code message" of the refusal, "accepted" when there is none.
 inline std::string text_refusal(std::string_view body, BodyKind kind, const QueryParameters& query = {},
                                 const Budget& budget = {}) {
