@@ -84,6 +84,7 @@ Result<RefineRequest> read_any(std::string_view body, BodyKind kind, const Query
 void override_meshes(RefineRequest& request) {
   const Options& options = request.options;
   for (ControlMesh& mesh : request.meshes) {
+    if (options.subdivision_scheme) mesh.subdivision_scheme = kSchemeNames[*options.subdivision_scheme];
     if (options.interpolate_boundary) mesh.interpolate_boundary = *options.interpolate_boundary;
     if (options.face_varying_linear_interpolation)
       mesh.face_varying_linear_interpolation = *options.face_varying_linear_interpolation;

@@ -84,7 +84,7 @@ constexpr auto kWord = OptionKind::word;
 // clang-format off
 std::vector<OptionSpec> options_of_all() { return {
   option<&Options::level>(kInteger, "level", {}, "2", "meshes, curves, surfaces, glTF",
-    "How often to refine. Every level makes four triangles (or quads) of one and doubles a curve's segments. The server may allow less than the maximum."),
+    "How often to refine. Every level makes four triangles or quads of one (of a face of another number of vertices as many quads) and doubles a curve's segments. The server may allow less than the maximum."),
   option<&Options::limit>(kBoolean, "limit", {}, "false", "meshes, curves, surfaces, glTF",
     "Move every refined point, and every vertex and faceVarying value, to where refining for ever would lead."),
   option<&Options::normals>(kBoolean, "normals", {}, "false", "meshes, curves, surfaces, glTF",
@@ -92,11 +92,13 @@ std::vector<OptionSpec> options_of_all() { return {
   option<&Options::verify>(kBoolean, "verify", {}, "false", "meshes, curves, glTF",
     "Attach the report of the comparison with OpenSubdiv."),
   option<&Options::triangulate>(kBoolean, "triangulate", {}, "false", "meshes",
-    "Split faces of more than three vertices instead of refusing them: into fans from their first vertex, by "
-    "clipping ears where a fan would fold a concave face over."),
+    "Split faces of more than three vertices before anything else, which loop asks for: into fans from their first "
+    "vertex, by clipping ears where a fan would fold a concave face over."),
 }; }
 
 std::vector<OptionSpec> options_of_kinds() { return {
+  option<&Options::subdivision_scheme>(kWord, "subdivisionScheme", kSchemeNames, "", "meshes, glTF",
+    "The scheme; set here it overrides every mesh of the body. Default: the mesh's own, and where it has none loop if all its faces are triangles, otherwise catmullClark."),
   option<&Options::interpolate_boundary>(kWord, "interpolateBoundary", kBoundary, "", "meshes, glTF",
     "What happens where the surface ends; set here it overrides every mesh of the body. Default: the mesh's own, edgeAndCorner where it has none."),
   option<&Options::face_varying_linear_interpolation>(kWord, "faceVaryingLinearInterpolation", kFaceVarying, "", "meshes, glTF",
@@ -338,7 +340,7 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
                  .allowed = limits.max_level};
   if (!options.verify) return {};
   for (const ControlMesh& mesh : request.meshes) {
-    const auto scheme = scheme_of_mesh(mesh.subdivision_scheme, options.schemes);
+    const auto scheme = scheme_of(mesh, options.schemes);
     const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
     if (!reason.empty())
       return Error{ErrorCode::unsupported, "verify compares with OpenSubdiv, which " + std::string(reason),

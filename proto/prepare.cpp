@@ -12,6 +12,7 @@
 #include "core/mesh/creases.h"
 #include "core/mesh/repair.h"
 #include "core/mesh/winding.h"
+#include "core/refine/plan.h"
 #include "proto/client_text.h"
 #include "proto/json/locate.h"
 #include "proto/suggest.h"
@@ -101,14 +102,15 @@ Count rearranging_bytes(const ControlMesh& mesh, Count faces) {
   return 2 * numbers * sizeof(Index);
 }
 
-// Bytes of what check() makes of creases, to look for their edges (see are_edges()), and of corners
-// and holes, to find those that are given twice.
+// Bytes of what check() makes of creases, to look for their edges (see are_edges()), of corners
+// and holes, to find those that are given twice, and of points, to find faces that repeat one.
 Count checking_bytes(const ControlMesh& mesh) {
   const Count points = mesh.point_count(), corners = mesh.face_vertex_indices.size();
   constexpr Count kPair = sizeof(VertexPair) + sizeof(Index) + 2;
   Count bytes = 0;
   if (!mesh.crease_lengths.empty())
     bytes = mesh.crease_indices.size() * kPair + (3 * (points + 1) + corners) * sizeof(Index);
+  if (!mesh.face_vertex_counts.empty()) bytes = std::max(bytes, points * sizeof(Index));
   if (!mesh.corner_indices.empty()) bytes = std::max(bytes, points);
   if (!mesh.hole_indices.empty()) bytes = std::max(bytes, mesh.face_count());
   return bytes;
@@ -143,9 +145,12 @@ Result<void> drop_faces(RefineRequest& request, std::size_t i, json::FaceHistory
                         const Budget& budget) {
   ControlMesh& mesh = request.meshes[i];
   const std::size_t faces = mesh.face_count();
-  if (mesh.face_vertex_indices.size() == 3 * faces)
-    if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
-  if (auto taken = budget.take_memory(rearranging_bytes(mesh, faces)); !taken) return taken;
+  if (auto fine = check_beside_faces(mesh, budget); !fine) return fine;
+  const Count corners = mesh.face_vertex_indices.size();
+  if (auto taken =
+          budget.take_memory(rearranging_bytes(mesh, (corners + 2) / 3) + (faces + 1) * sizeof(Count));
+      !taken)
+    return taken;
   if (history.triangulated.empty()) history.counts = mesh.face_vertex_counts;
   history.crease_indices = mesh.crease_indices;
   history.crease_lengths = mesh.crease_lengths;
@@ -171,6 +176,14 @@ Result<void> repair_and_check(RefineRequest& request, std::size_t i, json::FaceH
   if (fine || is_stop(fine.error()) || !repeats) return fine;
   if (auto dropped = drop_faces(request, i, history, budget); !dropped) return dropped;
   return mesh.check(budget);
+}
+
+// What the scheme that the mesh names does not take is refused before anything is planned.
+Result<void> check_scheme(const RefineRequest& request, std::size_t i, const Budget& budget) {
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    const auto scheme = scheme_of(request.meshes[i], request.options.schemes, pace);
+    return scheme ? Result<void>() : scheme.error();
+  });
 }
 
 // What single precision cannot hold would come out infinite.
@@ -237,6 +250,7 @@ Result<void> turn_for_gltf(RefineRequest& request, std::size_t i, const Budget& 
 Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& budget) {
   json::FaceHistory history;
   Result<void> fine = repair_and_check(request, i, history, budget);
+  if (fine) fine = check_scheme(request, i, budget);
   if (fine)
     fine = answer_precision(request) == Precision::single_precision
                ? check_magnitudes<float>(request.meshes[i], budget)

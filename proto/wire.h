@@ -49,6 +49,7 @@ struct Options {
   AllSchemes schemes = {};  // the options of every scheme that meshes may name
   CreaseMethod crease_method = CreaseMethod::uniform;
   Weld weld = Weld::exact;
+  std::optional<Index> subdivision_scheme;  // place in kSchemeNames; overrides every mesh of the body
   std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body
   std::optional<FaceVaryingInterpolation> face_varying_linear_interpolation;
   std::optional<Faces> faces;          // default: quads; glTF answers have triangles always

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/rings.h"
@@ -87,38 +88,81 @@ Result<void> check_valence(Index valence, Index least) {
                {"valence"}};
 }
 
-// Labels, and room for the matrix.
-Spectrum ring_of(std::string_view scheme, Index n) {
-  Spectrum s;
-  s.scheme = scheme;
-  s.valence = n;
-  s.labels = {"v"};
-  for (Index k = 0; k < n; ++k) s.labels.push_back("e" + std::to_string(k));
-  s.matrix.resize(s.labels.size() * s.labels.size());
-  return s;
-}
+// A vertex, its edges counter-clockwise, and the faces between them: as many, or one less where the ring is open.
+template <class S>
+class LocalRing {
+ public:
+  LocalRing(const S& scheme, Index edges, bool open)
+      : scheme_(scheme), edges_(edges), faces_(open ? edges - 1 : edges) {
+    spectrum_.scheme = S::name;
+    spectrum_.valence = edges;
+    spectrum_.labels = {"v"};
+    for (Index k = 0; k < edges; ++k) spectrum_.labels.push_back("e" + std::to_string(k));
+    for (Index k = 0; kHasFacePoints && k < faces_; ++k) spectrum_.labels.push_back("f" + std::to_string(k));
+    size_ = spectrum_.labels.size();
+    spectrum_.matrix.resize(size_ * size_);
+  }
 
-void set_vertex_row(Spectrum& s, const VertexMask& mask) {
-  s.matrix[0] = mask.self;
-  for (Index k = 0; k < s.valence; ++k) s.matrix[1 + k] = mask.each;
-  for (const Index end : mask.crease_ends) s.matrix[1 + end] += mask.crease;
-}
+  // With all masks of the rule; `sharpness`: of every edge, 0 or infinite.
+  Spectrum with_matrix(const std::vector<float>& sharpness) {
+    set_vertex_row(scheme_.vertex_mask({faces_, CreaseMethod::uniform, 0, 0, sharpness, sharpness}));
+    for (Index k = 0; k < edges_; ++k) set_edge_row(k, sharpness[k]);
+    for (Index k = 0; kHasFacePoints && k < faces_; ++k) add_face_point(row(1 + edges_ + k), k, 1);
+    return std::move(spectrum_);
+  }
 
-// The new neighbour on edge k: the edge point between v and e_k, with the opposite vertices that there are.
-void set_edge_row(Spectrum& s, Index k, const EdgeMask& mask, std::initializer_list<Index> opposite) {
-  double* row = &s.matrix[(k + 1) * s.labels.size()];
-  row[0] = row[k + 1] = mask.end;
-  for (const Index o : opposite) row[o + 1] += mask.opposite;
-}
+ private:
+  // Where faces are quads the point of a face takes the place of the vertex opposite to v.
+  static constexpr bool kHasFacePoints = S::split == Split::quads;
 
-// Two vectors of a plane of left eigenvectors turned so that e0 lies on the first one's axis and e1 on the
-// second one's side.
+  double* row(Index number) { return &spectrum_.matrix[number * size_]; }
+  void add_face_point(double* to, Index face, double weight) const {
+    for (const Index corner : {Index{0}, 1 + face, 1 + (face + 1) % edges_, 1 + edges_ + face})
+      to[corner] += weight / 4;
+  }
+  void set_vertex_row(const VertexMask& mask) {
+    double* const to = row(0);
+    to[0] += mask.self;
+    for (Index k = 0; k < edges_; ++k) to[1 + k] += mask.each;
+    if (mask.crease != 0)
+      for (const Index end : mask.crease_ends) to[1 + end] += mask.crease;
+    for (Index k = 0; kHasFacePoints && mask.face != 0 && k < faces_; ++k) add_face_point(to, k, mask.face);
+  }
+  // The new neighbour on edge k: the edge point between v and e_k.
+  void set_edge_row(Index k, float sharpness) {
+    std::vector<Index> faces;
+    if (k < faces_) faces.push_back(k);
+    if (k > 0 || faces_ == edges_) faces.push_back((k + edges_ - 1) % edges_);
+    const EdgeMask mask =
+        scheme_.edge_mask({static_cast<Index>(faces.size()), sharpness, {sharpness, sharpness}});
+    double* const to = row(1 + k);
+    to[0] += mask.end;
+    to[1 + k] += mask.end;
+    for (const Index f : faces) {
+      if (kHasFacePoints)
+        add_face_point(to, f, mask.face);
+      else
+        to[1 + (f == k ? (k + 1) % edges_ : f)] += mask.opposite;
+    }
+  }
+
+  S scheme_;
+  Index edges_, faces_;
+  std::size_t size_ = 0;
+  Spectrum spectrum_;
+};
+
+// Two left eigenvectors of one eigenvalue: what cosine and sine of the edges' angles have in its space, turned so that
+// e0 lies on the first one's axis and e1 on the second one's side.
 std::optional<Error> set_smooth_tangents(Spectrum& s, const EigenSpace& space) {
   const std::vector<Row> plane = left_vectors(space);
-  if (plane.size() != 2) return unexpected("the rule has no tangent plane: two vectors should belong to it");
-  Row towards_e0(s.labels.size()), towards_e1(s.labels.size());
-  towards_e0[1] = towards_e1[2] = 1;
-  Row u = project(towards_e0, plane), v = project(towards_e1, plane);
+  if (plane.size() < 2) return unexpected("the rule has no tangent plane: two vectors should belong to it");
+  Row cosine(s.labels.size()), sine(s.labels.size());
+  for (Index k = 0; k < s.valence; ++k) {
+    cosine[1 + k] = std::cos(2 * std::numbers::pi * k / s.valence);
+    sine[1 + k] = std::sin(2 * std::numbers::pi * k / s.valence);
+  }
+  Row u = project(cosine, plane), v = project(sine, plane);
   scale(u, 1 / u[1]);
   subtract(v, dot(v, u) / dot(u, u), u);
   scale(v, std::sqrt(dot(u, u) / dot(v, v)));
@@ -129,7 +173,7 @@ std::optional<Error> set_smooth_tangents(Spectrum& s, const EigenSpace& space) {
 // The border is a curve of its own: v and its two ends depend on nothing else, and a left eigenvector of
 // their three rows is one of all rows, with zeros elsewhere.
 std::optional<Error> add_tangent_along(Spectrum& s, const Budget& budget) {
-  const std::size_t size = s.labels.size(), kept[] = {1, 0, size - 1};
+  const std::size_t size = s.labels.size(), kept[] = {1, 0, s.valence};
   Row part;
   for (const std::size_t i : kept)
     for (const std::size_t j : kept) part.push_back(s.matrix[i * size + j]);
@@ -147,7 +191,7 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
   const std::size_t size = s.labels.size();
   const bool inner = s.valence > 2;
   Row target(size);
-  for (std::size_t k = 1; k < size; ++k) target[k] = !inner || (k > 1 && k + 1 < size) ? 1 : 0;
+  for (std::size_t k = 1; k <= s.valence; ++k) target[k] = !inner || (k > 1 && k < s.valence) ? 1 : 0;
   for (std::size_t i = 1; i < system.spaces.size(); ++i) {
     Row mask = project(target, left_vectors(system.spaces[i]));
     const double sum = dot(mask, target);
@@ -163,12 +207,7 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
 template <SubdivisionScheme S>
 Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 3); !checked) return checked.error();
-  const Index n = valence;
-  Spectrum s = ring_of(S::name, n);
-  const std::vector<float> smooth(n, 0.0f);
-  set_vertex_row(s, scheme.vertex_mask({n, CreaseMethod::uniform, 0, 0, smooth, smooth}));
-  for (Index k = 0; k < n; ++k)
-    set_edge_row(s, k, scheme.edge_mask({2, 0, {0, 0}}), {(k + 1) % n, (k + n - 1) % n});
+  Spectrum s = LocalRing<S>(scheme, valence, false).with_matrix(std::vector<float>(valence, 0.0f));
   const Result<EigenSystem> system = analyse(s, budget);
   if (!system) return system.error();
   if (auto fault = set_smooth_tangents(s, system->spaces[1])) return *fault;
@@ -178,15 +217,9 @@ Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget
 template <SubdivisionScheme S>
 Result<Spectrum> border_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 2); !checked) return checked.error();
-  const Index n = valence, last = n - 1;
-  Spectrum s = ring_of(S::name, n);
-  std::vector<float> sharp(n, 0.0f);
-  sharp[0] = sharp[last] = kInfiniteSharpness;
-  set_vertex_row(s, scheme.vertex_mask({last, CreaseMethod::uniform, 0, 0, sharp, sharp}));
-  const EdgeRing border{1, kInfiniteSharpness, {kInfiniteSharpness, kInfiniteSharpness}};
-  set_edge_row(s, 0, scheme.edge_mask(border), {1});
-  set_edge_row(s, last, scheme.edge_mask(border), {last - 1});
-  for (Index k = 1; k < last; ++k) set_edge_row(s, k, scheme.edge_mask({2, 0, {0, 0}}), {k - 1, k + 1});
+  std::vector<float> sharp(valence, 0.0f);
+  sharp.front() = sharp.back() = kInfiniteSharpness;
+  Spectrum s = LocalRing<S>(scheme, valence, true).with_matrix(sharp);
   const Result<EigenSystem> system = analyse(s, budget);
   if (!system) return system.error();
   if (auto fault = add_tangent_along(s, budget)) return *fault;

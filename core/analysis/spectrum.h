@@ -20,9 +20,11 @@ inline constexpr Index kMaxSpectrumDegree = 15;
 
 struct Spectrum {
   std::string scheme;
-  Index valence = 2;                // edges at the point; 2 on curves
-  std::vector<std::string> labels;  // of rows and columns: "c[-2]", ...; "v", "e0", ...
-  std::vector<double> matrix;       // row major, labels.size() rows
+  Index valence = 2;  // edges at the point; 2 on curves
+  // Of rows and columns: "c[-2]", ...; "v", "e0", ..., and where faces are quads "f0", ...: the vertex opposite to v in
+  // the face between e0 and e1, and so on.
+  std::vector<std::string> labels;
+  std::vector<double> matrix;  // row major, labels.size() rows
   // By magnitude, descending, each as often as it is a root of the characteristic polynomial.
   std::vector<double> eigenvalues;
   Index defect = 0;  // rows less independent eigenvectors: 1 for each Jordan block of two rows
@@ -45,7 +47,7 @@ struct Spectrum {
   double steps_per_digit = 0;
 };
 
-// The one-ring of a smooth inner vertex: rows v, e0, ..., e(n-1), counter-clockwise. Valence 3 to
+// The one-ring of a smooth inner vertex: rows v, e0, ..., e(n-1), counter-clockwise, f0, ... where faces are quads. Valence 3 to
 // kMaxSpectrumValence (out_of_range at {"valence"}). With Loop's masks farther rings would add eigenvalues
 // 1/8 and 1/16 only, which are subsubdominant at valence 3 alone: there the true one is 1/8, not this ring's
 // 1/16.

@@ -23,9 +23,10 @@ float SemiSharp::vertex(Index v) const {
   return at == vertices.size() ? 0.0f : vertex_sharpness[at];
 }
 
-Net Net::build(const AnyScheme& scheme, CreaseMethod method,
-               std::shared_ptr<const Topology<Triangles>> topology, Sharpness sharpness, Index max_level,
-               const Pace& pace) {
+template <class Faces>
+Net<Faces> Net<Faces>::build(const AnyScheme& scheme, CreaseMethod method,
+                             std::shared_ptr<const Topology<Faces>> topology, Sharpness sharpness,
+                             Index max_level, const Pace& pace) {
   Net net;
   net.scheme_ = scheme;
   net.method_ = method;
@@ -38,7 +39,8 @@ Net Net::build(const AnyScheme& scheme, CreaseMethod method,
   return net;
 }
 
-Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& pace) {
+template <class Faces>
+Net<Faces> Net<Faces>::build(std::shared_ptr<const Net> of_mesh, Channel<Faces> channel, const Pace& pace) {
   Net net;
   net.mesh_ = std::move(of_mesh);
   const Net& mesh = *net.mesh_;
@@ -59,7 +61,7 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
   };
   std::vector<Pair> pairs;
   SemiSharp base;
-  const auto side = [](const Topology<Triangles>& topology, Index h) {
+  const auto side = [](const Topology<Faces>& topology, Index h) {
     return topology.edge_vertices(topology.half_edge_edge(h))[0] == topology.corner_vertex(h);
   };
   base.edges = std::move(net.semi_sharp_edges_);
@@ -96,26 +98,31 @@ Net Net::build(std::shared_ptr<const Net> of_mesh, Channel channel, const Pace& 
   return net;
 }
 
-Count Net::resident_bytes() const {
-  const Count faces = topology_->face_count(), edges = topology_->edge_count(),
+template <class Faces>
+Count Net<Faces>::resident_bytes() const {
+  const Count corners = topology_->corner_vertices().size(), edges = topology_->edge_count(),
               vertices = topology_->vertex_count();
-  return 2048 + 40 * faces + 32 * edges + 24 * vertices;
+  return 2048 + 14 * corners + 32 * edges + 24 * vertices;
 }
 
-Count Net::building_bytes() const {
-  return topology_building_bytes(topology_->vertex_count(), topology_->face_count());
+template <class Faces>
+Count Net<Faces>::building_bytes() const {
+  return topology_building_bytes(topology_->vertex_count(), topology_->corner_vertices().size());
 }
 
-const SemiSharp& Net::semi_sharp(Index level) const {
+template <class Faces>
+const SemiSharp& Net<Faces>::semi_sharp(Index level) const {
   static const SemiSharp none;
   return level < levels_.size() ? levels_[level] : none;
 }
 
-std::span<const Index> Net::unsettled_vertices(Index level) const {
+template <class Faces>
+std::span<const Index> Net<Faces>::unsettled_vertices(Index level) const {
   return level < unsettled_.size() ? std::span<const Index>(unsettled_[level]) : std::span<const Index>();
 }
 
-float Net::segment_sharpness(Index level, Index e, Count from_low) const {
+template <class Faces>
+float Net<Faces>::segment_sharpness(Index level, Index e, Count from_low) const {
   if (is_infinite(sharpness_.edges[e])) return kInfiniteSharpness;
   if (!is_sharp(sharpness_.edges[e])) return 0;
   const SemiSharp& semi = semi_sharp(level);
@@ -123,15 +130,18 @@ float Net::segment_sharpness(Index level, Index e, Count from_low) const {
   return at == semi.edges.size() ? 0 : semi.segment(at, from_low);
 }
 
-float Net::sharpness_beside(Index level, Index e, Index v) const {
+template <class Faces>
+float Net<Faces>::sharpness_beside(Index level, Index e, Index v) const {
   return segment_sharpness(level, e, topology_->edge_vertices(e)[0] == v ? 0 : segments(level) - 1);
 }
 
-float Net::sharpness_far(Index level, Index e, Index v) const {
+template <class Faces>
+float Net<Faces>::sharpness_far(Index level, Index e, Index v) const {
   return segment_sharpness(level + 1, e, topology_->edge_vertices(e)[0] == v ? 1 : segments(level + 1) - 2);
 }
 
-void Net::set_rules(bool linear_borders, const Pace& pace) {
+template <class Faces>
+void Net<Faces>::set_rules(bool linear_borders, const Pace& pace) {
   pace.fill(vertex_rules_, topology_->vertex_count(), linear_ ? VertexRule::corner : VertexRule::smooth);
   pace.fill(edge_rules_, topology_->edge_count(), linear_ ? EdgeRule::linear : EdgeRule::smooth);
   if (linear_) return;
@@ -159,7 +169,8 @@ void Net::set_rules(bool linear_borders, const Pace& pace) {
   list_vertices(pace);
 }
 
-void Net::list_vertices(const Pace& pace) {
+template <class Faces>
+void Net<Faces>::list_vertices(const Pace& pace) {
   std::array<bool, kListedValence + 1> present{};
   pace.for_each(topology_->vertex_count(), [&](Index v) {
     const std::size_t valence = topology_->vertex_corners(v).size();
@@ -174,7 +185,8 @@ void Net::list_vertices(const Pace& pace) {
     if (present[n]) valences_.push_back(n);
 }
 
-void Net::list_semi_sharp_vertices(SemiSharp& base, const Pace& pace) const {
+template <class Faces>
+void Net<Faces>::list_semi_sharp_vertices(SemiSharp& base, const Pace& pace) const {
   for_each_set(
       std::span(sharpness_.vertices),
       [&](std::size_t v) {
@@ -185,7 +197,8 @@ void Net::list_semi_sharp_vertices(SemiSharp& base, const Pace& pace) const {
       pace);
 }
 
-void Net::decay_all(const Pace& pace) {
+template <class Faces>
+void Net<Faces>::decay_all(const Pace& pace) {
   SemiSharp base;
   base.edges = std::move(semi_sharp_edges_);
   base.segments.reserve(base.edges.size());
@@ -199,7 +212,8 @@ void Net::decay_all(const Pace& pace) {
 }
 
 // One level on.
-SemiSharp Net::decayed(const SemiSharp& level, Index index, const Pace& pace) const {
+template <class Faces>
+SemiSharp Net<Faces>::decayed(const SemiSharp& level, Index index, const Pace& pace) const {
   SemiSharp next;
   pace.for_each(level.vertices.size(), [&](std::size_t k) {
     const float s = decay(level.vertex_sharpness[k]);
@@ -247,7 +261,8 @@ SemiSharp Net::decayed(const SemiSharp& level, Index index, const Pace& pace) co
 }
 
 // The halves next to base vertices, around which all edges decay together.
-void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pace& pace) const {
+template <class Faces>
+void Net<Faces>::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pace& pace) const {
   std::vector<float> parent, child;
   for (const Index v : with_ends({}, from.edges, pace)) {
     const auto edges = topology_->vertex_edges(v);
@@ -268,8 +283,9 @@ void Net::decay_ends(const SemiSharp& from, Index level, SemiSharp& to, const Pa
 }
 
 // The vertices and the ends of the edges, ascending, each once.
-std::vector<Index> Net::with_ends(std::span<const Index> vertices, std::span<const Index> edges,
-                                  const Pace& pace) const {
+template <class Faces>
+std::vector<Index> Net<Faces>::with_ends(std::span<const Index> vertices, std::span<const Index> edges,
+                                         const Pace& pace) const {
   std::vector<Index> list;
   list.reserve(vertices.size() + 2 * edges.size());
   pace.for_each(vertices.size(), [&](std::size_t k) { list.push_back(vertices[k]); });
@@ -281,8 +297,12 @@ std::vector<Index> Net::with_ends(std::span<const Index> vertices, std::span<con
   return list;
 }
 
-void Net::list_unsettled(const Pace& pace) {
+template <class Faces>
+void Net<Faces>::list_unsettled(const Pace& pace) {
   for (const SemiSharp& level : levels_) unsettled_.push_back(with_ends(level.vertices, level.edges, pace));
 }
+
+template class Net<Triangles>;
+template class Net<Quads>;
 
 }  // namespace subdivd

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/lattice/numbering.h"
+#include "core/lattice/quads.h"
 #include "core/lattice/split.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/control_mesh.h"
@@ -23,6 +26,9 @@ namespace subdivd {
 enum class VertexRule : unsigned char { smooth, dart, crease, corner };
 // The same for the points of a base edge. `linear`: midpoints, and points stay where they are.
 enum class EdgeRule : unsigned char { smooth, crease, linear };
+
+// Vertices of up to so many edges have their masks in tables.
+inline constexpr Index kListedValence = 64;
 
 // linear: midpoints throughout, limits are the values (varying primvars, and channels that ask for it).
 enum class Smoothing { smooth, linear };
@@ -48,18 +54,24 @@ inline Count chaikin_bytes(Count edges, Index max_level) {
   return edges * sizeof(float) << (2 + std::min(max_level + 1, static_cast<Index>(kInfiniteSharpness) + 1));
 }
 
+// The faces of a scheme's refined meshes.
+template <class Scheme>
+using FacesOf = std::conditional_t<Scheme::split == Split::triangles, Triangles, Quads>;
+
+// Instantiated for Triangles and Quads.
+template <class Faces>
 class Net {
  public:
   // Of the mesh.
   static Net build(const AnyScheme& scheme, CreaseMethod method,
-                   std::shared_ptr<const Topology<Triangles>> topology, Sharpness sharpness, Index max_level,
+                   std::shared_ptr<const Topology<Faces>> topology, Sharpness sharpness, Index max_level,
                    const Pace& pace);
   // Of a channel of it, whose semi-sharp edges decay with the mesh's.
-  static Net build(std::shared_ptr<const Net> mesh, Channel channel, const Pace& pace);
+  static Net build(std::shared_ptr<const Net> mesh, Channel<Faces> channel, const Pace& pace);
 
-  const Topology<Triangles>& topology() const { return *topology_; }
+  const Topology<Faces>& topology() const { return *topology_; }
   // The same, to be kept: nets and render meshes that connect alike share it.
-  const std::shared_ptr<const Topology<Triangles>>& shared_topology() const { return topology_; }
+  const std::shared_ptr<const Topology<Faces>>& shared_topology() const { return topology_; }
   const Sharpness& sharpness() const { return sharpness_; }
   const AnyScheme& scheme() const { return scheme_; }
   CreaseMethod crease_method() const { return method_; }
@@ -73,10 +85,7 @@ class Net {
   Count resident_bytes() const;
   Count building_bytes() const;
 
-  Count value_count(Index level) const {
-    return refined_counts(topology_->vertex_count(), topology_->edge_count(), topology_->face_count(), level)
-        .vertices;
-  }
+  Count value_count(Index level) const { return refined_vertex_count(*topology_, level); }
   // Which of the values that were given each of the net's vertices takes. Empty: its own number.
   std::span<const Index> value_indices() const { return value_indices_; }
 
@@ -84,7 +93,6 @@ class Net {
   std::span<const EdgeRule> edge_rules() const { return edge_rules_; }
   // Valences of smooth vertices and darts, ascending; those above kListedValence are left out.
   std::span<const Index> valences() const { return valences_; }
-  static constexpr Index kListedValence = 64;
   // The vertices that are neither smooth nor darts, or of more edges than are listed, ascending.
   std::span<const Index> special_vertices() const { return special_vertices_; }
   std::span<const Index> darts() const { return darts_; }  // ascending
@@ -114,7 +122,7 @@ class Net {
   CreaseMethod method_ = CreaseMethod::uniform;
   Index max_level_ = 0;
   bool linear_ = false;
-  std::shared_ptr<const Topology<Triangles>> topology_;
+  std::shared_ptr<const Topology<Faces>> topology_;
   Sharpness sharpness_;
   std::vector<Index> value_indices_;
   std::vector<VertexRule> vertex_rules_;

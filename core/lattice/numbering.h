@@ -9,7 +9,22 @@
 
 namespace subdivd {
 
-class Numbering {
+// The points around one: of its edges, counter-clockwise, and where faces are quads the one opposite to it in the
+// face behind each edge.
+template <std::size_t kEdges, std::size_t kFaces>
+struct PointsAround {
+  std::array<Index, kEdges> edges;
+  std::array<Index, kFaces> opposite = {};
+};
+
+// Of the refined mesh over faces of one size: below for triangles, in quads.h for quads.
+template <class Faces>
+class Numbering;
+template <class Faces>
+Numbering(const Connectivity<Faces>&, Index) -> Numbering<Faces>;
+
+template <>
+class Numbering<Triangles> {
  public:
   Numbering(const Connectivity<Triangles>& connectivity, Index level)
       : connectivity_(&connectivity),
@@ -36,16 +51,24 @@ class Numbering {
     return static_cast<Index>(edge_begin_ + e * (n_ - 1) + k - 1);
   }
 
-  // The six neighbours of point k inside an edge of two faces, counter-clockwise from the next point along
+  using Ring = PointsAround<6, 0>;
+  using BorderRing = PointsAround<4, 0>;
+
+  // The neighbours of point k inside an edge of two faces, counter-clockwise from the next point along
   // the edge.
-  std::array<Index, 6> ring_on_edge(Index e, Count k) const {
+  Ring ring_on_edge(Index e, Count k) const {
     const auto [left, right] = connectivity_->edge_sides()[e];
-    return {along(e, k + 1), beside(left, k),       beside(left, k - 1),
-            along(e, k - 1), beside(right, n_ - k), beside(right, n_ - 1 - k)};
+    return {{along(e, k + 1), beside(left, k), beside(left, k - 1), along(e, k - 1), beside(right, n_ - k),
+             beside(right, n_ - 1 - k)}};
+  }
+  // Those of point p inside half-edge h, counted from its own start, in the face of h alone: from the next point
+  // to the one before.
+  BorderRing ring_beside(Index h, Count p) const {
+    return {{on_edge(h / 3, h % 3, p + 1), beside(h, p), beside(h, p - 1), on_edge(h / 3, h % 3, p - 1)}};
   }
 
   // Those of any vertex inside a base face, or inside a base edge of two faces.
-  std::array<Index, 6> regular_ring(Index vertex) const {
+  Ring regular_ring(Index vertex) const {
     if (vertex < face_begin_) {
       const Count from_first = vertex - edge_begin_;
       return ring_on_edge(static_cast<Index>(from_first / (n_ - 1)), from_first % (n_ - 1) + 1);
@@ -53,8 +76,8 @@ class Numbering {
     const Count from_first = vertex - face_begin_;
     const auto face = static_cast<Index>(from_first / inner_points(n_));
     const auto [i, j] = inner_point(n_, from_first % inner_points(n_));
-    return {this->vertex(face, i + 1, j), this->vertex(face, i, j + 1), this->vertex(face, i - 1, j + 1),
-            this->vertex(face, i - 1, j), this->vertex(face, i, j - 1), this->vertex(face, i + 1, j - 1)};
+    return {{this->vertex(face, i + 1, j), this->vertex(face, i, j + 1), this->vertex(face, i - 1, j + 1),
+             this->vertex(face, i - 1, j), this->vertex(face, i, j - 1), this->vertex(face, i + 1, j - 1)}};
   }
 
   // The row of points next to half-edge h and parallel to it, in h's direction: p = 0..n-1. Point p and the
@@ -85,6 +108,11 @@ class Numbering {
   const Connectivity<Triangles>* connectivity_;
   Count n_, edge_begin_, face_begin_;
 };
+
+// As many values has a mesh at that level.
+inline Count refined_vertex_count(const Connectivity<Triangles>& connectivity, Index level) {
+  return Numbering(connectivity, level).vertex_count();
+}
 
 // The numbers of one face's points, edge by edge: point p = 1..n-1 of side k, counted from corner k, has the
 // number side[k] + (p - 1) step[k], modulo 2^32; those inside start at `inside`.

@@ -7,15 +7,14 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/pace.h"
-#include "core/mesh/connectivity.h"
+#include "core/lattice/lattice.h"
 
 namespace subdivd {
 
 // For every refined vertex of `part` that of `whole` at the same place of the same face. Face f of `part` is
 // face first_face + f of `whole`, corner for corner. `holes`: one flag per face of `part`; vertices that only
 // holes have, and those without a face, get kNoIndex.
-Buffer<Index> vertex_sources(const Connectivity<Triangles>& part, const Connectivity<Triangles>& whole,
-                             Index first_face, Index level, std::span<const unsigned char> holes,
-                             const Pace& pace);
+Buffer<Index> vertex_sources(const Lattice& part, const Lattice& whole, Index first_face, Index level,
+                             std::span<const unsigned char> holes, const Pace& pace);
 
 }  // namespace subdivd

@@ -31,7 +31,8 @@ struct GridPoint {
 
 // Size of a refined level, known before anything is refined.
 struct LevelCounts {
-  Count vertices = 0, edges = 0, triangles = 0;  // triangles: holes included
+  Count vertices = 0, edges = 0, faces = 0;  // faces: holes included
+  Index face_size = 3;                       // corners of each; 0: they have different numbers
 };
 
 inline constexpr Count segments(Index level) { return Count{1} << level; }

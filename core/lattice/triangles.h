@@ -1,14 +1,14 @@
 #pragma once
-// The index buffer of a refined mesh, by formula alone.
+// The index buffer of refined triangles, by formula alone.
 
-#include <memory>
+#include <cstring>
 #include <span>
-#include <vector>
 
 #include "core/base/budget.h"
-#include "core/base/buffer.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
+#include "core/lattice/split.h"
 #include "core/mesh/connectivity.h"
 
 namespace subdivd {
@@ -19,29 +19,42 @@ Result<void> write_triangles(const Connectivity<Triangles>& connectivity, Index 
                              std::span<const unsigned char> holes, Index* out, Index threads,
                              const Budget& budget);
 
-// The same piece by piece, for whoever passes it on and keeps none of it.
-class TriangleStream {
+// Writes the refined triangles of one base face after the other.
+class TriangleWriter {
  public:
-  TriangleStream() = default;  // of no faces
-  TriangleStream(std::shared_ptr<const Connectivity<Triangles>> connectivity, Index level,
-                 std::span<const unsigned char> holes);
+  TriangleWriter(const Connectivity<Triangles>& connectivity, Index level, const Pace& pace)
+      : connectivity_(connectivity), n_(segments(level)), pace_(pace) {}
 
-  Count index_count() const { return index_count_; }  // of all triangles
-  Count least_room() const;                           // that next() needs, in indices
-  Count held_bytes() const;  // of what it keeps in memory, at most; the connectivity may be shared
-  // Writes the triangles that follow, as many as there is room for; returns the number of their indices, 0
-  // behind the last.
-  Count next(std::span<Index> out);
-  // All of them at once, wherever next() is.
-  Result<Buffer<Index>> all(Index threads, const Budget& budget) const;
+  // Whether rows are written one by one, for a face that is not written at once.
+  bool has_rows() const { return n_ > 8; }
+  static constexpr Count kRoomBehindRow = 18;  // that write_rows() may write to
+  Count indices_of_row(Count row) const { return 3 * (2 * (n_ - row) - 1); }
+  Count indices_of_face() const { return 3 * n_ * n_; }
+
+  // Triangles of the rows [begin, end) of a face, of n; returns where they end.
+  Index* write_rows(Index face, Count begin, Count end, Index* out) const;
+  // Where a face has four triangles a call takes half as long as writing them.
+  [[gnu::always_inline]] void write(Index face, Index* out) const {
+    if (n_ == 2) return write_four(face, out);
+    write_more(face, out);
+  }
 
  private:
-  std::shared_ptr<const Connectivity<Triangles>> connectivity_;
-  Index level_ = 0;
-  std::vector<unsigned char> holes_;
-  Count index_count_ = 0;
-  Index face_ = 0;
-  Count row_ = 0;  // of the face, where rows are written one by one
+  // One point an edge: it makes no difference from which end they count.
+  void write_four(Index face, Index* out) const {
+    const Index *v = connectivity_.corner_vertices().data() + Count{3} * face,
+                *e = connectivity_.half_edge_edges().data() + Count{3} * face,
+                first = connectivity_.vertex_count();
+    const Index four[12] = {v[0],         first + e[0], first + e[2], first + e[0],
+                            first + e[1], first + e[2], first + e[0], v[1],
+                            first + e[1], first + e[2], first + e[1], v[2]};
+    std::memcpy(out, four, sizeof four);
+  }
+  void write_more(Index face, Index* out) const;
+
+  const Connectivity<Triangles>& connectivity_;
+  Count n_;
+  const Pace& pace_;
 };
 
 }  // namespace subdivd

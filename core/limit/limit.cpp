@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "core/mesh/positions.h"
 #include "core/schemes/all.h"
@@ -87,31 +88,55 @@ bool set_normal(Frame<Real>& frame) {
 }
 
 template <class Real>
-void Ring<Real>::set_faces(const Topology<Triangles>& topology, Index v, const Pace& pace) {
+template <class Faces>
+void Ring<Real>::set_faces(const Topology<Faces>& topology, Index v, const Pace& pace) {
   const Positions in_ring(topology.vertex_edges(v), pace);
   auto position = [&](Index h) { return static_cast<Index>(in_ring(topology.half_edge_edge(h))); };
-  for (Index h : topology.vertex_corners(v)) {
+  const auto corners = topology.vertex_corners(v);
+  for (Index h : corners) {
     pace.spend(16);
-    wedges.push_back({position(h), position(Triangles::prev(h))});
+    wedges.push_back({position(h), position(topology.prev(h))});
   }
+  // Where faces are triangles nothing lies opposite to v that is not on the ring's edges.
+  constexpr bool kHasOpposite = !std::is_same_v<Faces, Triangles>;
+  const Positions in_corners(kHasOpposite ? corners : std::span<const Index>(), pace);
   auto passable = [&](Index e) {
     pace.spend(8);
     return !is_infinite(edge_sharpness[in_ring(e)]);
   };
-  const Topology<Triangles>::Fans fans = topology.fans(v, passable, pace);
+  const typename Topology<Faces>::Fans fans = topology.fans(v, passable, pace);
   sector_edges.reserve(wedges.size() + fans.size());
   const auto size = [&] { return static_cast<Index>(sector_edges.size()); };
   for (std::size_t k = 0; k < fans.size(); ++k) {
-    const Topology<Triangles>::Fan fan = fans[k];
+    const typename Topology<Faces>::Fan fan = fans[k];
     Sector sector{size(), 0, fan.closed};
     for (Index h : fan.corners) {
       pace.spend(8);
       sector_edges.push_back(position(h));
+      if (kHasOpposite) sector_wedges.push_back(static_cast<Index>(in_corners(h)));
     }
-    if (!fan.closed) sector_edges.push_back(position(Triangles::prev(fan.corners.back())));
+    if (!fan.closed) {
+      sector_edges.push_back(position(topology.prev(fan.corners.back())));
+      if (kHasOpposite) sector_wedges.push_back(kNoIndex);
+    }
     sector.end = size();
     sectors.push_back(sector);
   }
+}
+
+template <class Real>
+void Ring<Real>::set_fan(Index faces, bool closed, const Pace& pace) {
+  const Index edges = closed ? faces : faces + 1;
+  pace.for_each(faces, [&](Index k) {
+    wedges.push_back({k, (k + 1) % edges});
+    sector_edges.push_back(k);
+    sector_wedges.push_back(k);
+  });
+  if (!closed) {
+    sector_edges.push_back(faces);
+    sector_wedges.push_back(kNoIndex);
+  }
+  sectors = {{0, edges, closed}};
 }
 
 template <class Scheme, class Real>
@@ -153,6 +178,33 @@ std::vector<Real> LimitRing<Scheme, Real>::sum_opposite() const {
   return sums;
 }
 
+// The points of the faces, in a ring of quads: the vertices opposite to the center one level on.
+template <class Scheme, class Real>
+std::vector<Real> LimitRing<Scheme, Real>::face_points() const {
+  std::vector<Real> points(ring_.opposite.size());
+  const Index width = ring_.width;
+  for (std::size_t k = 0; k < ring_.wedges.size(); ++k) {
+    pace_.spend(1 + width / 2);
+    const Real *from = &ring_.neighbors[std::size_t{ring_.wedges[k].from} * width],
+               *to = &ring_.neighbors[std::size_t{ring_.wedges[k].to} * width];
+    for (Index c = 0; c < width; ++c)
+      points[k * width + c] = ((ring_.center[c] + from[c]) + (ring_.opposite[k * width + c] + to[c])) / 4;
+  }
+  return points;
+}
+// Per edge those of its faces together.
+template <class Scheme, class Real>
+std::vector<Real> LimitRing<Scheme, Real>::sum_face_points(std::span<const Real> points) const {
+  std::vector<Real> sums(ring_.neighbors.size(), Real(0));
+  const Index width = ring_.width;
+  for (std::size_t k = 0; k < ring_.wedges.size(); ++k) {
+    pace_.spend(1 + width / 2);
+    for (const Index edge : {ring_.wedges[k].from, ring_.wedges[k].to})
+      for (Index c = 0; c < width; ++c) sums[std::size_t{edge} * width + c] += points[k * width + c];
+  }
+  return sums;
+}
+
 // One level of refinement of the ring: its own values from its own values.
 template <class Scheme, class Real>
 void LimitRing<Scheme, Real>::step(std::size_t level) {
@@ -161,7 +213,8 @@ void LimitRing<Scheme, Real>::step(std::size_t level) {
   std::vector<float> near_child(n);
   pace_.for_each(n, [&](std::size_t k) { near_child[k] = decay_beside(ring_.edge_sharpness[k], around); });
   const std::vector<Index> face_counts = count_faces();
-  const std::vector<Real> opposite = sum_opposite();
+  std::vector<Real> points = kHasFacePoints ? face_points() : std::vector<Real>();
+  const std::vector<Real> beside_edges = kHasFacePoints ? sum_face_points(points) : sum_opposite();
   const float child_sharpness = decay(ring_.vertex_sharpness);
   const VertexMask vertex =
       scheme_.vertex_mask({static_cast<Index>(ring_.wedges.size()), method_, ring_.vertex_sharpness,
@@ -174,6 +227,10 @@ void LimitRing<Scheme, Real>::step(std::size_t level) {
     });
     for (Index end : vertex.crease_ends)
       sum += static_cast<Real>(vertex.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
+    if (kHasFacePoints && vertex.face != 0)
+      pace_.for_each(ring_.wedges.size(), [&](std::size_t k) {
+        sum += static_cast<Real>(vertex.face) * points[k * ring_.width + c];
+      });
     center[c] = sum;
   }
   for (std::size_t k = 0; k < n; ++k) {
@@ -188,45 +245,53 @@ void LimitRing<Scheme, Real>::step(std::size_t level) {
     ring_.far_child[k] = next[0];
     for (Index c = 0; c < ring_.width; ++c) {
       Real& value = ring_.neighbors[k * ring_.width + c];
-      value = static_cast<Real>(edge.end) * (ring_.center[c] + value) +
-              static_cast<Real>(edge.opposite) * opposite[k * ring_.width + c];
+      value =
+          static_cast<Real>(edge.end) * (ring_.center[c] + value) +
+          static_cast<Real>(kHasFacePoints ? edge.face : edge.opposite) * beside_edges[k * ring_.width + c];
     }
   }
+  ring_.opposite = std::move(points);
   ring_.center = std::move(center);
   ring_.edge_sharpness = std::move(near_child);
   ring_.vertex_sharpness = child_sharpness;
 }
 
-// The ring's edges in cyclic order from the crease on.
+// In cyclic order from the crease on.
 template <class Scheme, class Real>
-std::vector<Index> LimitRing<Scheme, Real>::dart_order() const {
-  const auto edges = edges_of(ring_.sectors[0]);
-  return {edges.begin(), edges.end() - 1};  // the last is the crease again
+auto LimitRing<Scheme, Real>::dart_order() const -> Order {
+  const auto [edges, wedges] = order_of(ring_.sectors[0]);
+  // The last edge is the crease again.
+  return {edges.first(edges.size() - 1), wedges.empty() ? wedges : wedges.first(wedges.size() - 1)};
 }
 
 template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::apply(const RingMask& mask, std::span<const Index> order, Real* out) const {
-  for (Index c = 0; c < ring_.width; ++c) {
-    Real sum = static_cast<Real>(mask.self) * ring_.center[c];
-    pace_.for_each(mask.edges.size(), [&](std::size_t k) {
-      sum += static_cast<Real>(mask.edges[k]) * ring_.neighbors[std::size_t{order[k]} * ring_.width + c];
+template <class F>
+void LimitRing<Scheme, Real>::for_each_weight(const RingMask& mask, const Order& order, F&& f) const {
+  const auto go_through = [&](const std::vector<double>& weights, std::span<const Index> places,
+                              const std::vector<Real>& values) {
+    pace_.for_each(weights.size(), [&](std::size_t k) {
+      f(static_cast<Real>(weights[k]), &values[std::size_t{places[k]} * ring_.width]);
     });
-    out[c] = sum;
-  }
+  };
+  go_through(mask.edges, order.edges, ring_.neighbors);
+  if (kHasFacePoints) go_through(mask.faces, order.wedges, ring_.opposite);
+}
+
+template <class Scheme, class Real>
+void LimitRing<Scheme, Real>::apply(const RingMask& mask, const Order& order, Real* out) const {
+  for (Index c = 0; c < ring_.width; ++c) out[c] = static_cast<Real>(mask.self) * ring_.center[c];
+  for_each_weight(mask, order, [&](Real weight, const Real* values) {
+    for (Index c = 0; c < ring_.width; ++c) out[c] += weight * values[c];
+  });
 }
 
 // A tangent mask's weights sum to 0: applied to differences it loses nothing far from the origin.
 template <class Scheme, class Real>
-void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, std::span<const Index> order,
-                                              Real out[3]) const {
-  for (std::size_t c = 0; c < 3; ++c) {
-    Real sum = 0;
-    pace_.for_each(mask.edges.size(), [&](std::size_t k) {
-      sum += static_cast<Real>(mask.edges[k]) *
-             (ring_.neighbors[std::size_t{order[k]} * 3 + c] - ring_.center[c]);
-    });
-    out[c] = sum;
-  }
+void LimitRing<Scheme, Real>::apply_to_spokes(const RingMask& mask, const Order& order, Real out[3]) const {
+  std::fill_n(out, 3, Real(0));
+  for_each_weight(mask, order, [&](Real weight, const Real* values) {
+    for (std::size_t c = 0; c < 3; ++c) out[c] += weight * (values[c] - ring_.center[c]);
+  });
 }
 
 template <class Scheme, class Real>
@@ -237,8 +302,8 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
     case Rule::corner:
       return out;
     case Rule::dart: {
-      const std::vector<Index> order = dart_order();
-      apply(scheme_.dart_limit_mask(static_cast<Index>(order.size()), pace_), order, out.data());
+      const Order order = dart_order();
+      apply(scheme_.dart_limit_mask(static_cast<Index>(order.edges.size()), pace_), order, out.data());
       return out;
     }
     case Rule::smooth:
@@ -260,6 +325,10 @@ std::vector<Real> LimitRing<Scheme, Real>::position() const {
     if (mask.crease != 0)
       for (Index end : mask.crease_ends)
         sum += static_cast<Real>(mask.crease) * ring_.neighbors[std::size_t{end} * ring_.width + c];
+    if (kHasFacePoints && mask.face != 0)
+      pace_.for_each(ring_.wedges.size(), [&](std::size_t k) {
+        sum += static_cast<Real>(mask.face) * ring_.opposite[k * ring_.width + c];
+      });
     out[c] = sum + static_cast<Real>(mask.self) * ring_.center[c];
   }
   return out;
@@ -313,26 +382,25 @@ Frame<Real> LimitRing<Scheme, Real>::mean_frame(const Sector& sector) const {
 
 template <class Scheme, class Real>
 Frame<Real> LimitRing<Scheme, Real>::frame_of(const Sector& sector) const {
-  const auto edges = edges_of(sector);
+  const Order order = order_of(sector);
+  const auto edges = order.edges;
   Frame<Real> frame;
   const auto faces = static_cast<Index>(edges.size() - (sector.closed ? 0 : 1));
   const bool returns = !sector.closed && edges.front() == edges.back();
+  const Index ends[2] = {edges.front(), edges.back()};
   const Frame<Real> mean = mean_frame(sector);
   if (sector.closed) {
-    apply_to_spokes(scheme_.smooth_tangent_u(faces, pace_), edges, frame.u);
-    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), edges, frame.v);
-  } else if (rule_ == Rule::dart) {
-    const std::vector<Index> order = dart_order();
-    apply_to_spokes(scheme_.dart_tangent_u(faces, pace_), order, frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_u(faces, pace_), order, frame.u);
     apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), order, frame.v);
+  } else if (rule_ == Rule::dart) {
+    apply_to_spokes(scheme_.dart_tangent_u(faces, pace_), dart_order(), frame.u);
+    apply_to_spokes(scheme_.smooth_tangent_v(faces, pace_), dart_order(), frame.v);
   } else if (rule_ == Rule::crease && !returns) {
-    const Index ends[2] = {edges.front(), edges.back()};
-    apply_to_spokes({0, {1, -1}}, ends, frame.u);
-    apply_to_spokes(scheme_.crease_tangent_across(faces, pace_), edges, frame.v);
-  } else if (rule_ == Rule::corner && faces <= 2 && !returns) {
-    const Index ends[2] = {edges.front(), edges.back()};
-    apply_to_spokes({-1, {1, 0}}, ends, frame.u);
-    apply_to_spokes({-1, {0, 1}}, ends, frame.v);
+    apply_to_spokes({0, {1, -1}}, {ends, {}}, frame.u);
+    apply_to_spokes(scheme_.crease_tangent_across(faces, pace_), order, frame.v);
+  } else if (rule_ == Rule::corner && faces <= Scheme::flat_corner_faces && !returns) {
+    apply_to_spokes({-1, {1, 0}}, {ends, {}}, frame.u);
+    apply_to_spokes({-1, {0, 1}}, {ends, {}}, frame.v);
   } else {
     return mean;
   }
@@ -355,6 +423,12 @@ std::vector<Frame<Real>> LimitRing<Scheme, Real>::frames() const {
 
 template struct Ring<float>;
 template struct Ring<double>;
+#define SUBDIVD_INSTANTIATE(Faces)                                                  \
+  template void Ring<float>::set_faces(const Topology<Faces>&, Index, const Pace&); \
+  template void Ring<double>::set_faces(const Topology<Faces>&, Index, const Pace&);
+SUBDIVD_INSTANTIATE(Triangles)
+SUBDIVD_INSTANTIATE(Quads)
+#undef SUBDIVD_INSTANTIATE
 template bool set_normal(Frame<float>&);
 template bool set_normal(Frame<double>&);
 #define SUBDIVD_INSTANTIATE(S)        \

@@ -12,6 +12,7 @@
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
 #include "core/schemes/mask.h"
+#include "core/schemes/scheme.h"
 
 namespace subdivd {
 
@@ -35,6 +36,8 @@ struct Ring {
 
   Index width = 3;
   std::vector<Real> center, neighbors;  // width scalars; width per ring edge
+  // Where faces are quads: the vertex opposite to the center, width scalars per wedge. Elsewhere empty.
+  std::vector<Real> opposite;
   float vertex_sharpness = 0;
   std::vector<float> edge_sharpness;  // of the ring's edges
   // How semi-sharp edges decay: of all the mesh's edges at the vertex, at this level and the following ones;
@@ -44,10 +47,17 @@ struct Ring {
   std::vector<float> far_child;  // per edge: sharpness, one level on, of its half away from the vertex
   std::vector<Wedge> wedges;
   std::vector<Index> sector_edges;  // of the ring, sector by sector, counter-clockwise
+  // Where faces are quads, per sector edge the wedge that follows it; behind an open sector's last edge there is
+  // none: kNoIndex.
+  std::vector<Index> sector_wedges;
   std::vector<Sector> sectors;
 
-  // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v).
-  void set_faces(const Topology<Triangles>& topology, Index v, const Pace& pace = {});
+  // Sets wedges and sectors from the faces at v, the ring's edges being topology.vertex_edges(v), wedge k
+  // topology.vertex_corners(v)[k].
+  template <class Faces>
+  void set_faces(const Topology<Faces>& topology, Index v, const Pace& pace = {});
+  // The same where all are one fan of `faces` faces, in order: closed, or open with one more edge.
+  void set_fan(Index faces, bool closed, const Pace& pace = {});
 };
 
 // A ring ready for limits. Linear in the ring, however many sectors it has. Scheme: see
@@ -63,8 +73,9 @@ class LimitRing {
   // One frame per sector, for width 3. Smooth vertices and darts have one sector. Which frame:
   //   smooth, dart   the tangent masks of the scheme
   //   crease         along the crease and across the sector
-  //   corner         of 1 or 2 faces: its two border edges. Of more faces the limit surface has no tangent
-  //                  plane: the mean of the sector's triangles, weighted by area
+  //   corner         of up to Scheme::flat_corner_faces: its two border edges. Of more faces the limit surface has no
+  //                  tangent plane: the mean of the sector's triangles (center, two edges that follow one another),
+  //                  weighted by area
   // Where the tangents are parallel (degenerate geometry) the mean of the triangles takes their place.
   std::vector<Frame<Real>> frames() const;
   // Calls f(frame) for one after the other: a hub may have a million.
@@ -80,15 +91,30 @@ class LimitRing {
   using Sector = typename Ring<Real>::Sector;
 
   bool settled() const;
+  static constexpr bool kHasFacePoints = Scheme::split == Split::quads;
   std::span<const Index> edges_of(const Sector& sector) const {
     return std::span(ring_.sector_edges).subspan(sector.begin, sector.end - sector.begin);
+  }
+  std::span<const Index> wedges_of(const Sector& sector) const {
+    if (!kHasFacePoints) return {};
+    return std::span(ring_.sector_wedges).subspan(sector.begin, sector.end - sector.begin);
   }
   void step(std::size_t level);
   std::vector<Index> count_faces() const;
   std::vector<Real> sum_opposite() const;
-  std::vector<Index> dart_order() const;
-  void apply(const RingMask& mask, std::span<const Index> order, Real* out) const;
-  void apply_to_spokes(const RingMask& mask, std::span<const Index> order, Real out[3]) const;
+  std::vector<Real> face_points() const;
+  std::vector<Real> sum_face_points(std::span<const Real> points) const;
+  // Edges and wedges that a ring mask's weights belong to.
+  struct Order {
+    std::span<const Index> edges, wedges;
+  };
+  Order order_of(const Sector& sector) const { return {edges_of(sector), wedges_of(sector)}; }
+  Order dart_order() const;
+  // Calls f(weight, values) for the neighbours that the mask weighs.
+  template <class F>
+  void for_each_weight(const RingMask& mask, const Order& order, F&& f) const;
+  void apply(const RingMask& mask, const Order& order, Real* out) const;
+  void apply_to_spokes(const RingMask& mask, const Order& order, Real out[3]) const;
   Frame<Real> frame_of(const Sector& sector) const;
   Frame<Real> mean_frame(const Sector& sector) const;
 

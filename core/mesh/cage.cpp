@@ -9,9 +9,11 @@ namespace subdivd {
 Cage::Cage(const ControlMesh& mesh)
     : subdivision_scheme(mesh.subdivision_scheme),
       point_count(static_cast<Index>(mesh.point_count())),
+      face_vertex_counts(mesh.face_vertex_counts),
       face_vertex_indices(mesh.face_vertex_indices),
       interpolate_boundary(mesh.interpolate_boundary),
       face_varying_linear_interpolation(mesh.face_varying_linear_interpolation),
+      triangle_subdivision_rule(mesh.triangle_subdivision_rule),
       crease_indices(mesh.crease_indices),
       crease_lengths(mesh.crease_lengths),
       crease_sharpnesses(mesh.crease_sharpnesses),

@@ -40,7 +40,7 @@ inline constexpr float kInfiniteSharpness = 10.0f;
 struct RenderMesh {
   Index face_begin = 0, face_end = 0;
   Index vertex_count = 0;
-  std::vector<Index> indices;  // 3 per face, each < vertex_count
+  std::vector<Index> indices;  // one per face corner, each < vertex_count
 };
 
 // Refers to the arrays of a control mesh that outlives it; control_mesh.h says what they hold. Whoever wants
@@ -50,13 +50,17 @@ struct Cage {
   Cage(const ControlMesh& mesh);
   Cage(const ControlMesh&&) = delete;
 
-  Count face_count() const { return face_vertex_indices.size() / 3; }
+  Count face_count() const {
+    return face_vertex_counts.empty() ? face_vertex_indices.size() / 3 : face_vertex_counts.size();
+  }
 
   std::string_view subdivision_scheme;
   Index point_count;
-  std::span<const Index> face_vertex_indices;  // of triangles
+  std::span<const Index> face_vertex_counts;  // empty: all faces are triangles
+  std::span<const Index> face_vertex_indices;
   BoundaryInterpolation interpolate_boundary;
   FaceVaryingInterpolation face_varying_linear_interpolation;
+  TriangleRule triangle_subdivision_rule;
   std::span<const Index> crease_indices, crease_lengths;
   std::span<const float> crease_sharpnesses;
   std::span<const Index> corner_indices;

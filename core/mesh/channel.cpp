@@ -10,7 +10,8 @@ namespace subdivd {
 namespace {
 
 // Channel vertices of the corners, and the value of each channel vertex.
-void number_vertices(const Topology<Triangles>& base, std::span<const Index> vertices,
+template <class Faces>
+void number_vertices(const Topology<Faces>& base, std::span<const Index> vertices,
                      std::span<const Index> corner_values, Index value_count, std::vector<Index>& corners,
                      std::vector<Index>& values, const Pace& pace) {
   // Per value: the first point that uses it; the last one that uses it as well, and its channel vertex there.
@@ -45,10 +46,11 @@ struct Span {
   bool disjoint = false;  // not one fan, or crossed by an infinitely sharp edge
 };
 
+template <class Faces>
 class Rules {
  public:
-  Rules(const Cage& cage, CreaseMethod crease_method, const Topology<Triangles>& base,
-        const Sharpness& base_sharpness, Channel& channel, const Pace& pace)
+  Rules(const Cage& cage, CreaseMethod crease_method, const Topology<Faces>& base,
+        const Sharpness& base_sharpness, Channel<Faces>& channel, const Pace& pace)
       : cage_(cage),
         crease_method_(crease_method),
         base_(base),
@@ -98,9 +100,9 @@ class Rules {
     bool border = false;
     for (Index h : base_.vertex_corners(v)) {
       pace_.spend(4);
-      if (is_seam(h) || is_seam(Triangles::prev(h))) return false;
+      if (is_seam(h) || is_seam(base_.prev(h))) return false;
       border |= base_.is_boundary(base_.half_edge_edge(h)) ||
-                base_.is_boundary(base_.half_edge_edge(Triangles::prev(h)));
+                base_.is_boundary(base_.half_edge_edge(base_.prev(h)));
     }
     if (!border) return true;
     if (channel_.linear_borders) return false;
@@ -197,17 +199,18 @@ class Rules {
 
   const Cage& cage_;
   CreaseMethod crease_method_;
-  const Topology<Triangles>& base_;
+  const Topology<Faces>& base_;
   const Sharpness& base_sharpness_;
-  Channel& channel_;
-  const Topology<Triangles>& topology_;  // the channel's
+  Channel<Faces>& channel_;
+  const Topology<Faces>& topology_;  // the channel's
   FaceVaryingInterpolation mode_;
   const Pace& pace_;
 };
 
 }  // namespace
 
-std::vector<Index> vertices_with_faces(const Topology<Triangles>& topology, const Pace& pace) {
+template <class Faces>
+std::vector<Index> vertices_with_faces(const Topology<Faces>& topology, const Pace& pace) {
   std::vector<Index> vertices;
   pace.for_each(topology.vertex_count(), [&](Index v) {
     if (!topology.vertex_corners(v).empty()) vertices.push_back(v);
@@ -215,19 +218,20 @@ std::vector<Index> vertices_with_faces(const Topology<Triangles>& topology, cons
   return vertices;
 }
 
-Channel make_channel(const Cage& cage, CreaseMethod crease_method,
-                     std::shared_ptr<const Topology<Triangles>> base, const Sharpness& base_sharpness,
-                     std::span<const Index> vertices, std::span<const Index> corner_values, Index value_count,
-                     const Pace& pace) {
-  Channel channel;
+template <class Faces>
+Channel<Faces> make_channel(const Cage& cage, CreaseMethod crease_method,
+                            std::shared_ptr<const Topology<Faces>> base, const Sharpness& base_sharpness,
+                            std::span<const Index> vertices, std::span<const Index> corner_values,
+                            Index value_count, const Pace& pace) {
+  Channel<Faces> channel;
   std::vector<Index> corners;
   number_vertices(*base, vertices, corner_values, value_count, corners, channel.values, pace);
-  const Topology<Triangles>& points = *base;
+  const Topology<Faces>& points = *base;
   if (channel.values.size() == base->vertex_count() && pace.equal(corners, base->corner_vertices()))
     channel.topology = std::move(base);
   else
-    channel.topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(channel.values.size()),
-                                                                   Triangles(std::move(corners)), pace);
+    channel.topology = std::make_shared<const Topology<Faces>>(
+        static_cast<Index>(channel.values.size()), points.faces().with_corners(std::move(corners)), pace);
   channel.linear = cage.face_varying_linear_interpolation == FaceVaryingInterpolation::all;
   channel.linear_borders = cage.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
   pace.fill(channel.sharpness.vertices, channel.topology->vertex_count(), 0.0f);
@@ -235,7 +239,8 @@ Channel make_channel(const Cage& cage, CreaseMethod crease_method,
   return channel;
 }
 
-bool is_as_mesh(const Cage& cage, const Topology<Triangles>& base, std::span<const Index> corner_values,
+template <class Faces>
+bool is_as_mesh(const Cage& cage, const Topology<Faces>& base, std::span<const Index> corner_values,
                 Index value_count, const Pace& pace) {
   return cage.face_varying_linear_interpolation != FaceVaryingInterpolation::all &&
          value_count == base.vertex_count() && pace.equal(corner_values, base.corner_vertices()) &&
@@ -244,5 +249,16 @@ bool is_as_mesh(const Cage& cage, const Topology<Triangles>& base, std::span<con
            return std::ranges::find(kinds, EdgeKind::border) == kinds.end();
          });
 }
+
+#define SUBDIVD_INSTANTIATE(Faces)                                                                        \
+  template std::vector<Index> vertices_with_faces(const Topology<Faces>&, const Pace&);                   \
+  template Channel<Faces> make_channel(const Cage&, CreaseMethod, std::shared_ptr<const Topology<Faces>>, \
+                                       const Sharpness&, std::span<const Index>, std::span<const Index>,  \
+                                       Index, const Pace&);                                               \
+  template bool is_as_mesh(const Cage&, const Topology<Faces>&, std::span<const Index>, Index, const Pace&);
+SUBDIVD_INSTANTIATE(Triangles)
+SUBDIVD_INSTANTIATE(Quads)
+SUBDIVD_INSTANTIATE(Polygons)
+#undef SUBDIVD_INSTANTIATE
 
 }  // namespace subdivd

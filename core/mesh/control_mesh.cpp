@@ -110,13 +110,38 @@ Result<void> check_face_counts(const ControlMesh& mesh, const Pace& pace) {
                  {"faceVertexCounts"});
   for (std::size_t f = 0; f < mesh.face_vertex_counts.size(); ++f) {
     pace.spend(1);
-    if (mesh.face_vertex_counts[f] != 3)
+    if (mesh.face_vertex_counts[f] < 3)
       return fault(ErrorCode::not_a_triangle,
                    "face " + number(f) + " has " + number(mesh.face_vertex_counts[f]) +
-                       " vertices; only triangles are taken: set triangulate to true to split larger faces",
+                       " vertices; a face has at least 3",
                    at("faceVertexCounts", f));
   }
   return {};
+}
+
+// Finds the first corner whose vertex its face has had before; all corners are < point_count.
+Result<void> check_repeats(const ControlMesh& mesh, const Pace& pace) {
+  std::vector<Index> last_face;  // of each point
+  pace.fill(last_face, mesh.point_count(), kNoIndex);
+  Count corner = 0;
+  for (Count f = 0; f < mesh.face_count(); ++f) {
+    const Count end = corner + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]);
+    for (; corner < end; ++corner) {
+      pace.spend(1);
+      Index& last = last_face[mesh.face_vertex_indices[corner]];
+      if (last == f)
+        return fault(ErrorCode::not_a_triangle, "face " + number(f) + " repeats a vertex",
+                     at("faceVertexIndices", corner));
+      last = static_cast<Index>(f);
+    }
+  }
+  return {};
+}
+
+bool has_triangles_only(const ControlMesh& mesh, const Pace& pace) {
+  return all_blocks(std::span<const Index>(mesh.face_vertex_counts), pace, [](std::span<const Index> counts) {
+    return std::ranges::all_of(counts, [](Index count) { return count == 3; });
+  });
 }
 
 Result<void> check_faces(const ControlMesh& mesh, const Pace& pace) {
@@ -135,27 +160,22 @@ Result<void> check_faces(const ControlMesh& mesh, const Pace& pace) {
   } else if (auto fine = check_face_counts(mesh, pace); !fine) {
     return fine;
   }
-  if (all_triangles_sound(mesh.face_vertex_indices, mesh.point_count(), pace)) return {};
+  if (has_triangles_only(mesh, pace) &&
+      all_triangles_sound(mesh.face_vertex_indices, mesh.point_count(), pace))
+    return {};
   if (auto fine =
           check_indices(mesh.face_vertex_indices, mesh.point_count(), "points", {"faceVertexIndices"}, pace);
       !fine)
     return fine;
-  for (std::size_t h = 0; h < mesh.face_vertex_indices.size(); h += 3) {
-    pace.spend(3);
-    const Index* v = mesh.face_vertex_indices.data() + h;
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-      return fault(ErrorCode::not_a_triangle, "face " + number(h / 3) + " repeats a vertex",
-                   at("faceVertexIndices", h + (v[0] == v[1] ? 1 : 2)));
-  }
-  return {};
+  return check_repeats(mesh, pace);
 }
 
 // Every two neighbours of a crease must share an edge.
 Result<void> check_crease_edges(const ControlMesh& mesh, const Pace& pace) {
   if (mesh.crease_lengths.empty()) return {};
   const std::vector<VertexPair> edges = crease_edges(mesh, pace);
-  const std::vector<unsigned char> found =
-      are_edges(static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices, edges, pace);
+  const std::vector<unsigned char> found = are_edges(
+      static_cast<Index>(mesh.point_count()), mesh.face_vertex_counts, mesh.face_vertex_indices, edges, pace);
   const auto missing = static_cast<std::size_t>(std::ranges::find(found, 0) - found.begin());
   if (missing == found.size()) return {};
   Count place = 0, edge = 0;
@@ -285,14 +305,23 @@ Result<void> check_render_meshes(const ControlMesh& mesh, const Pace& pace) {
     if (render.face_begin < end || render.face_end < render.face_begin || render.face_end > mesh.face_count())
       return fault(ErrorCode::out_of_range, "face ranges must ascend within the mesh", at("renderMeshes", k));
     end = render.face_end;
-    if (render.indices.size() != 3 * Count{render.face_end - render.face_begin})
-      return fault(ErrorCode::wrong_length, "3 indices per face are needed", at("renderMeshes", k));
-    if (all_triangles_sound(render.indices, render.vertex_count, pace)) continue;
+    Count corners = 3 * Count{render.face_end - render.face_begin};
+    if (!mesh.face_vertex_counts.empty()) {
+      corners = 0;
+      pace.for_each(render.face_end - render.face_begin,
+                    [&](Index f) { corners += mesh.face_vertex_counts[render.face_begin + f]; });
+    }
+    if (render.indices.size() != corners)
+      return fault(ErrorCode::wrong_length, "one index per face corner is needed", at("renderMeshes", k));
+    // A render face cannot repeat a vertex unless its face does.
+    if (mesh.face_vertex_counts.empty() && all_triangles_sound(render.indices, render.vertex_count, pace))
+      continue;
     if (auto fine =
             check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k), pace);
         !fine)
       return fine;
-    return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
+    if (mesh.face_vertex_counts.empty())
+      return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
   }
   return {};
 }

@@ -30,12 +30,14 @@ inline constexpr Index kMaxElementSize = 4096;
 
 struct ControlMesh {
   std::string name;
-  std::string subdivision_scheme;          // a name from core/schemes/all.h; empty: the first of its list
+  // A name from core/schemes/all.h; empty: the first of its list that takes faces of these sizes.
+  std::string subdivision_scheme;
   std::vector<double> points;              // x y z per point
   std::vector<Index> face_vertex_counts;   // empty: all faces are triangles
   std::vector<Index> face_vertex_indices;  // face after face; a face's vertices counter-clockwise
   BoundaryInterpolation interpolate_boundary = BoundaryInterpolation::edge_and_corner;
   FaceVaryingInterpolation face_varying_linear_interpolation = FaceVaryingInterpolation::corners_plus1;
+  TriangleRule triangle_subdivision_rule = TriangleRule::catmull_clark;
 
   // Creases are polylines of point indices, one after the other; crease_lengths[k] ≥ 2 points each.
   // crease_sharpnesses holds one number per crease, or one per edge of every crease. An edge that several
@@ -59,9 +61,9 @@ struct ControlMesh {
   // {"faceVertexIndices", 17}); empty when the mesh may be given to any function of this library.
   // Everything OpenSubdiv's Far fails to check is checked here: indices against their arrays, counts against
   // lengths, finiteness, creases along existing edges, tags given twice. Linear in the size of the mesh.
-  // Faces other than triangles are faults (call triangulate first), and so are faces that repeat a vertex
-  // (call drop_degenerate_faces first). subdivision_scheme is refine()'s to judge: masks live above this
-  // folder.
+  // Faces of less than three vertices are faults, and so are faces that repeat a vertex
+  // (call drop_degenerate_faces first). subdivision_scheme is refine()'s to judge, and whether it takes faces of these
+  // sizes: masks live above this folder.
   // Stops when the budget says so; its error then has no place.
   Result<void> check(const Budget& budget = {}) const;
 };

@@ -36,8 +36,9 @@ class PairsByVertex {
 
 }  // namespace
 
-std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> triangles,
-                                     std::span<const VertexPair> pairs, const Pace& pace) {
+std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> counts,
+                                     std::span<const Index> corners, std::span<const VertexPair> pairs,
+                                     const Pace& pace) {
   std::vector<unsigned char> found;
   pace.fill(found, pairs.size(), 0);
   const PairsByVertex wanted(vertex_count, pairs, pace);
@@ -45,12 +46,16 @@ std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> 
   std::vector<Index> ends, offsets;
   pace.fill(offsets, Count{vertex_count} + 1, 0);
   const auto for_each_wanted = [&](auto&& f) {
-    pace.for_each(triangles.size() / 3, [&](Count face) {
-      for (Count k = 0; k < 3; ++k) {
-        const Index a = triangles[3 * face + k], b = triangles[3 * face + (k + 1) % 3];
+    Count begin = 0;
+    pace.for_each(counts.empty() ? corners.size() / 3 : counts.size(), [&](Count face) {
+      const Count size = counts.empty() ? 3 : counts[face];
+      pace.spend(size);
+      for (Count k = 0; k < size; ++k) {
+        const Index a = corners[begin + k], b = corners[begin + (k + 1 == size ? 0 : k + 1)];
         const Index low = std::min(a, b), high = std::max(a, b);
         if (high < vertex_count && !wanted.at(low).empty()) f(low, high);
       }
+      begin += size;
     });
   };
   for_each_wanted([&](Index low, Index) { ++offsets[low + 1]; });

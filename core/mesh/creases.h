@@ -27,10 +27,11 @@ void for_each_crease_edge(const Cage& cage, F&& f) {
 
 using VertexPair = std::array<Index, 2>;
 
-// For each of the pairs 1 where a triangle (3 indices each) has an edge between the two, else 0. Indices from
-// vertex_count on are on no edge. Linear, whatever the pairs are.
-std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> triangles,
-                                     std::span<const VertexPair> pairs, const Pace& pace);
+// For each of the pairs 1 where a face has an edge between the two, else 0. `counts`: corners of every face, which must
+// add up; empty: 3 each. Indices from vertex_count on are on no edge. Linear, whatever the pairs are.
+std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> counts,
+                                     std::span<const Index> corners, std::span<const VertexPair> pairs,
+                                     const Pace& pace);
 
 // The edge between the two vertices of each pair; kNoIndex: there is none. Linear, whatever the pairs are.
 template <class Faces>

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -23,7 +25,26 @@ std::vector<Count> corner_offsets(const ControlMesh& mesh, const Pace& pace) {
   return offsets;
 }
 
-bool repeats_a_vertex(const Index* v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
+// Flags of the faces that repeat a vertex. Numbers that are no points are told apart too, without a table of them.
+std::vector<unsigned char> repeating_faces(const ControlMesh& mesh, std::span<const Count> offsets,
+                                           const Pace& pace) {
+  std::vector<unsigned char> repeats;
+  pace.fill(repeats, mesh.face_count(), 0);
+  std::vector<Index> sorted;
+  for (Count f = 0; f < repeats.size(); ++f) {
+    const Count size = offsets[f + 1] - offsets[f];
+    const Index* const v = mesh.face_vertex_indices.data() + offsets[f];
+    pace.spend(size);
+    if (size == 3) {
+      repeats[f] = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+      continue;
+    }
+    sorted.assign(v, v + size);
+    pace.sort(sorted.begin(), sorted.end(), std::less<>());
+    repeats[f] = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  }
+  return repeats;
+}
 
 // Rearranges all that hangs on faces and corners. `faces`: old face of every new one; `corners`: old corner
 // of every new one.
@@ -53,7 +74,12 @@ void rearrange(ControlMesh& mesh, const std::vector<Index>& faces, const std::ve
     if (primvar.interpolation == Interpolation::face_varying) reindex(primvar.indices, corners, old_corners);
   }
   reindex(mesh.face_vertex_indices, corners, old_corners);
-  mesh.face_vertex_counts.clear();
+}
+
+Count corners_of(const ControlMesh& mesh, Index begin, Index end) {
+  if (mesh.face_vertex_counts.empty()) return 3 * Count{end - begin};
+  const auto counts = std::span(mesh.face_vertex_counts).subspan(begin, end - begin);
+  return std::accumulate(counts.begin(), counts.end(), Count{0});
 }
 
 // The parts of check() that rearranging relies on; the rest of a fault-ridden mesh stays as it is for
@@ -72,7 +98,7 @@ bool can_be_rearranged(const ControlMesh& mesh, const Pace& pace) {
   }
   for (const RenderMesh& render : mesh.render_meshes)
     if (render.face_begin > render.face_end || render.face_end > faces ||
-        render.indices.size() != 3 * Count{render.face_end - render.face_begin})
+        render.indices.size() != corners_of(mesh, render.face_begin, render.face_end))
       return false;
   return true;
 }
@@ -90,12 +116,13 @@ bool creases_add_up(const ControlMesh& mesh) {
 }
 
 // Creases along edges that only dropped faces had: cut out, the rest kept as creases of single edges.
-void drop_creases(ControlMesh& mesh, std::span<const Index> dropped_triangles, const Pace& pace) {
+void drop_creases(ControlMesh& mesh, std::span<const Index> dropped_counts,
+                  std::span<const Index> dropped_corners, const Pace& pace) {
   if (mesh.crease_lengths.empty() || !creases_add_up(mesh)) return;
   const auto points = static_cast<Index>(mesh.point_count());
   const std::vector<VertexPair> edges = crease_edges(mesh, pace);
-  const auto were = are_edges(points, dropped_triangles, edges, pace);
-  const auto are = are_edges(points, mesh.face_vertex_indices, edges, pace);
+  const auto were = are_edges(points, dropped_counts, dropped_corners, edges, pace);
+  const auto are = are_edges(points, mesh.face_vertex_counts, mesh.face_vertex_indices, edges, pace);
   const auto vanished = [&](Count k) { return edges[k][0] == edges[k][1] || (were[k] != 0 && are[k] == 0); };
   bool any = false;
   pace.for_each(edges.size(), [&](Count k) { any |= vanished(k); });
@@ -123,10 +150,12 @@ void drop_render_faces(ControlMesh& mesh, const std::vector<unsigned char>& drop
   for (RenderMesh& render : mesh.render_meshes) {
     std::vector<Index> indices;
     pace.spend(1);
+    auto first = render.indices.begin();
     for (Index f = render.face_begin; f < render.face_end; ++f) {
+      const auto end = first + static_cast<std::ptrdiff_t>(corners_of(mesh, f, f + 1));
       pace.spend(1);
-      const auto first = render.indices.begin() + std::ptrdiff_t{3} * (f - render.face_begin);
-      if (dropped[f] == 0) indices.insert(indices.end(), first, first + 3);
+      if (dropped[f] == 0) indices.insert(indices.end(), first, end);
+      first = end;
     }
     render.indices = std::move(indices);
     render.face_begin = kept_before[render.face_begin];
@@ -166,31 +195,35 @@ bool has_triangles_only(const ControlMesh& mesh, const Pace& pace) {
 
 Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) -> Result<std::vector<Index>> {
-    const bool triangles =
-        mesh.face_vertex_indices.size() == 3 * mesh.face_count() && has_triangles_only(mesh, pace);
-    if (!triangles) {
+    const std::vector<Count> offsets = corner_offsets(mesh, pace);
+    if (offsets.back() != mesh.face_vertex_indices.size()) {
       if (auto fine = mesh.check(budget); !fine) return std::move(fine).error();
     }
-    if (!has_repeats(mesh.face_vertex_indices, pace)) return std::vector<Index>{};
-    const Count faces = mesh.face_count();
-    std::vector<unsigned char> dropped;
-    pace.fill(dropped, faces, 0);
-    std::vector<Index> dropped_triangles, kept, corners;
-    pace.for_each(static_cast<Index>(faces), [&](Index f) {
-      const Index* v = mesh.face_vertex_indices.data() + Count{3} * f;
-      if (!repeats_a_vertex(v)) {
-        kept.push_back(f);
-        corners.insert(corners.end(), {3 * f, 3 * f + 1, 3 * f + 2});
-        return;
+    if (has_triangles_only(mesh, pace) && !has_repeats(mesh.face_vertex_indices, pace))
+      return std::vector<Index>{};
+    const std::vector<unsigned char> dropped = repeating_faces(mesh, offsets, pace);
+    std::vector<Index> dropped_counts, dropped_corners, kept, corners, counts;
+    pace.for_each(dropped.size(), [&](Count f) {
+      const auto size = static_cast<Index>(offsets[f + 1] - offsets[f]),
+                 first = static_cast<Index>(offsets[f]);
+      pace.spend(size);
+      if (dropped[f] == 0) {
+        kept.push_back(static_cast<Index>(f));
+        if (!mesh.face_vertex_counts.empty()) counts.push_back(size);
+        for (Index k = 0; k < size; ++k) corners.push_back(first + k);
+      } else if (!mesh.crease_indices.empty()) {
+        const Index* const v = mesh.face_vertex_indices.data() + first;
+        dropped_counts.push_back(size);
+        dropped_corners.insert(dropped_corners.end(), v, v + size);
       }
-      dropped[f] = 1;
-      if (!mesh.crease_indices.empty()) dropped_triangles.insert(dropped_triangles.end(), v, v + 3);
     });
+    if (kept.size() == dropped.size()) return std::vector<Index>{};
     if (!can_be_rearranged(mesh, pace)) return fault_of(mesh, budget);
     if (kept.empty()) return nothing_left();
     drop_render_faces(mesh, dropped, pace);
     rearrange(mesh, kept, corners, pace);
-    drop_creases(mesh, dropped_triangles, pace);
+    mesh.face_vertex_counts = std::move(counts);
+    drop_creases(mesh, dropped_counts, dropped_corners, pace);
     return kept;
   });
 }
@@ -240,6 +273,7 @@ Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget) {
       pace.for_each(3 * (size - 2), [&](Count k) { made.corners[begin + k] += static_cast<Index>(first); });
     }
     rearrange(mesh, made.faces, made.corners, pace);
+    mesh.face_vertex_counts.clear();
     return made;
   });
 }

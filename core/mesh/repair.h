@@ -16,7 +16,7 @@ namespace subdivd {
 // in any state.
 
 // Removes faces that repeat a vertex: they have no inside. Their face-varying indices, uniform values and
-// holes go with them, and so do creases along edges that no other face has. Expects triangles.
+// holes go with them, and so do creases along edges that no other face has.
 Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget = {});
 
 struct Triangulation {

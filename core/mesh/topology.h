@@ -63,6 +63,9 @@ class Topology : public Connectivity<Faces> {
   // The rows of vertex_edges(v), one after the other, and where each begins and the last ends.
   std::span<const Index> all_vertex_edges() const { return vertex_edges_; }
   std::span<const Index> vertex_edge_offsets() const { return vertex_edge_offsets_; }
+  // The same of vertex_corners(v).
+  std::span<const Index> all_vertex_corners() const { return vertex_corners_; }
+  std::span<const Index> vertex_corner_offsets() const { return vertex_corner_offsets_; }
 
   // An end of a non-manifold edge, or a point where several fans of faces meet (a bow tie).
   bool is_non_manifold_vertex(Index v) const { return non_manifold_vertices_[v] != 0; }
@@ -208,11 +211,11 @@ extern template class Topology<Triangles>;
 extern template class Topology<Quads>;
 extern template class Topology<Polygons>;
 
-// What building a topology of triangles takes beside what it holds in the end, at most: the edges' homes
-// while they are found (edges.cpp), room for edges that grows, half-edges between hubs.
-inline Count topology_building_bytes(Count vertices, Count faces) {
-  const bool has_homes = vertices <= 3 * faces;
-  return 84 * faces + (has_homes ? 68 * vertices : 8 * vertices + 36 * faces);
+// What building a topology takes beside what it holds in the end, at most: the edges' homes while they are found
+// (edges.cpp), room for edges that grows, half-edges between hubs.
+inline Count topology_building_bytes(Count vertices, Count corners) {
+  const bool has_homes = vertices <= corners;
+  return 28 * corners + (has_homes ? 68 * vertices : 8 * vertices + 12 * corners);
 }
 
 }  // namespace subdivd

@@ -1,6 +1,6 @@
 #include "core/mesh/winding.h"
 
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "core/base/pace.h"
@@ -9,8 +9,15 @@ namespace subdivd {
 
 Result<void> reverse_windings(ControlMesh& mesh, const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) -> Result<void> {
-    const auto turn = [&](std::vector<Index>& corners) {
-      pace.for_each(corners.size() / 3, [&](Count f) { std::swap(corners[3 * f + 1], corners[3 * f + 2]); });
+    // The first corner of every face stays the first. `first_face`: of those that the corners belong to.
+    const auto turn = [&](std::vector<Index>& corners, Index first_face = 0) {
+      auto begin = corners.begin();
+      for (Index f = first_face; begin != corners.end(); ++f) {
+        const Index size = mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f];
+        pace.spend(size);
+        std::reverse(begin + 1, begin + size);
+        begin += size;
+      }
     };
     for (Primvar& primvar : mesh.primvars) {
       pace.spend(1);
@@ -23,7 +30,7 @@ Result<void> reverse_windings(ControlMesh& mesh, const Budget& budget) {
       }
       turn(primvar.indices);
     }
-    for (RenderMesh& render : mesh.render_meshes) turn(render.indices);
+    for (RenderMesh& render : mesh.render_meshes) turn(render.indices, render.face_begin);
     turn(mesh.face_vertex_indices);
     return {};
   });

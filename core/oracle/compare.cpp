@@ -170,7 +170,7 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
       for (Index c = 0; c < sides.pairs.corners.size(); ++c) {
         sides.pace.spend(8);
         if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
-          visit(Site{sides.ours.triangles[corner],
+          visit(Site{sides.ours.faces[corner],
                      {sides.far.base_faces[c / 3], sides.far.corners[c].i, sides.far.corners[c].j}},
                 sides.far.faces[c], ours.indices[corner], far.indices[c]);
       }
@@ -191,11 +191,11 @@ bool complete(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, std::s
     case Interpolation::varying:
       return holds(sides.ours.provenance.size());
     case Interpolation::uniform:
-      return holds(sides.ours.triangle_faces.size());
+      return holds(sides.ours.base_faces.size());
     case Interpolation::face_varying:
       break;
   }
-  return ours.indices.size() == sides.ours.triangles.size() &&
+  return ours.indices.size() == sides.ours.faces.size() &&
          std::all_of(ours.indices.begin(), ours.indices.end(), [&](Index index) {
            sides.pace.spend(1);
            return index < our_values.size() / width;
@@ -239,7 +239,7 @@ template <class Real>
 LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far,
                     const Pace& pace) {
   const Correspondence pairs =
-      match(OurConnectivity{ours.level, ours.triangles, ours.triangle_faces, ours.provenance}, far, pace);
+      match(OurConnectivity{ours.level, ours.faces, ours.base_faces, ours.provenance}, far, pace);
   Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3, pace), pace, value_tolerance<Real>()};
   if (sharpness_rounds(mesh, pace))
     sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
@@ -247,7 +247,7 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
   report.level = far.level;
   report.connectivity_identical = pairs.identical;
   report.vertices = ours.provenance.size();
-  report.triangles = ours.triangle_faces.size();
+  report.triangles = ours.base_faces.size();
   report.deviations.push_back(compare_points<Real>(sides, "points", ours.points, far.points, false));
   if (!ours.limit_points.empty())
     report.deviations.push_back(

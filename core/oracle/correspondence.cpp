@@ -91,7 +91,7 @@ std::vector<Index> triangle_blocks(const OurConnectivity& ours, const FarLevel<R
   const Index base_faces = base_face_count(far, pace);
   std::vector<Index> blocks(base_faces, kNoIndex);
   const Count size = triangles_per_face(ours.level);
-  const std::span<const Index> faces = ours.triangle_faces;
+  const std::span<const Index> faces = ours.base_faces;
   for (Count begin = 0; begin < faces.size();) {
     Count end = begin;
     while (end < faces.size() && faces[end] == faces[begin]) ++end;
@@ -115,11 +115,11 @@ template <class Real>
 bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Correspondence& result,
                      const Pace& pace) {
   const Count n = segments(ours.level);
-  const Count faces = far.base_faces.size(), triangles = ours.triangle_faces.size();
+  const Count faces = far.base_faces.size(), triangles = ours.base_faces.size();
   const std::vector<Index> blocks = triangle_blocks(ours, far, pace);
   result.triangles.resize(faces);
   result.corners.resize(3 * faces);
-  const bool identical = ours.triangles.size() == 3 * triangles;
+  const bool identical = ours.faces.size() == 3 * triangles;
   std::vector<unsigned char> taken(triangles, 0);
   Count visible = 0, matched = 0;
   for (Count f = 0; f < faces; ++f) {
@@ -131,10 +131,10 @@ bool match_triangles(const OurConnectivity& ours, const FarLevel<Real>& far, Cor
     const Index block = blocks[far.base_faces[f]];
     if (block == kNoIndex) continue;
     const Count t = block + triangle_index(n, std::span(far.corners).subspan(3 * f).template first<3>());
-    if (t >= triangles || taken[t] != 0 || 3 * t + 3 > ours.triangles.size()) continue;
+    if (t >= triangles || taken[t] != 0 || 3 * t + 3 > ours.faces.size()) continue;
     std::array<Index, 3> corners{};
     for (Count k = 0; k < 3; ++k) corners[k] = result.vertices[far.faces[3 * f + k]];
-    const Index r = rotation(corners, ours.triangles.subspan(3 * t, 3));
+    const Index r = rotation(corners, ours.faces.subspan(3 * t, 3));
     if (r == 3) continue;
     taken[t] = 1;
     ++matched;

@@ -15,7 +15,7 @@ namespace subdivd::oracle {
 // What the comparison needs of our side, independent of Real.
 struct OurConnectivity {
   Index level = 0;
-  std::span<const Index> triangles, triangle_faces;
+  std::span<const Index> faces, base_faces;
   std::span<const Provenance> provenance;
 };
 

@@ -20,8 +20,7 @@ Counts counts_at(const ControlMesh& mesh, Index level) {
   const LevelCounts all = refined_counts(mesh.point_count(), 3 * faces, faces, level);
   const LevelCounts torn = refined_counts(3 * faces, 3 * faces, faces, level);
   return {static_cast<double>(mesh.point_count()), static_cast<double>(all.vertices),
-          static_cast<double>(all.edges), static_cast<double>(all.triangles),
-          static_cast<double>(torn.vertices)};
+          static_cast<double>(all.edges), static_cast<double>(all.faces), static_cast<double>(torn.vertices)};
 }
 
 double channels(const ControlMesh& mesh) {

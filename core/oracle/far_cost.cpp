@@ -175,7 +175,7 @@ Picoseconds far_refine_time(const FarLoad& load, Index level) {
   Count elements = 0;
   for (Index l = 1; l <= level; ++l) {
     const LevelCounts counts = refined_counts(load.points, load.edges, load.faces, l);
-    elements += counts.vertices + counts.edges + counts.triangles;
+    elements += counts.vertices + counts.edges + counts.faces;
   }
   // An edge becomes two of as many faces at every level.
   return elements * (kPerElement + kPerElementAndChannel * load.face_varying_channels) +

@@ -19,7 +19,7 @@ void remark_sharpness(const ControlMesh& mesh, MeshReport& report, const Pace& p
 }
 
 Result<void> check_scheme(const ControlMesh& mesh, const RefineOptions& options) {
-  const auto scheme = scheme_of_mesh(mesh.subdivision_scheme, options.schemes);
+  const auto scheme = scheme_of(mesh, options.schemes);
   const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
   if (reason.empty()) return {};  // what has no name here is refused by the plan
   return Error{ErrorCode::unsupported, "OpenSubdiv " + std::string(reason)};

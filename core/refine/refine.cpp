@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/base/pace.h"
-#include "core/engine/tri_grid/evaluate.h"
-#include "core/lattice/provenance.h"
-#include "core/lattice/split.h"
-#include "core/lattice/triangles.h"
 #include "core/refine/render_mesh.h"
 
 namespace subdivd {
@@ -60,8 +57,12 @@ class Job {
 
   Result<RefinedMesh<Real>> run() {
     out_.name = mesh_.name;
+    out_.scheme = std::visit([]<class S>(const S&) { return S::name; }, plan_.scheme());
     out_.level = options_.level;
-    out_.triangle_count = plan_.counts(options_.level).triangles;
+    for (Index level = 0; level <= options_.level; ++level)
+      out_.levels.push_back(plan_.mesh().lattice()->counts(level));
+    out_.face_count = plan_.counts(options_.level).faces;
+    out_.face_size = plan_.mesh().lattice()->face_size(options_.level);
     for (auto part : {&Job::refine_points, &Job::refine_connectivity, &Job::refine_primvars,
                       &Job::refine_render_meshes}) {
       if (auto stop = budget_.poll()) return *stop;
@@ -72,7 +73,7 @@ class Job {
 
  private:
   Result<void> refine_points() {
-    const Count size = 3 * plan_.net().value_count(options_.level);
+    const Count size = 3 * plan_.mesh().value_count(options_.level);
     Evaluated<Real> to;
     const auto array = [&](Buffer<Real>& buffer) {
       buffer.resize(size);
@@ -85,35 +86,39 @@ class Job {
       to.tangents_v = array(out_.tangents_v);
     }
     if (options_.normals) to.normals = array(out_.normals);
-    return evaluate<Real>(plan_.net(), options_.level, convert_values<Real>(mesh_.points, pace_), 3,
-                          Smoothing::smooth, to, options_.threads, budget_);
+    return plan_.mesh().evaluate(options_.level, convert_values<Real>(mesh_.points, pace_), 3,
+                                 Smoothing::smooth, to, options_.threads, budget_);
   }
 
-  Result<void> write_indices(const Net& net, Buffer<Index>& out) {
+  Result<void> write_indices(const Refinable& part, Buffer<Index>& out) {
     if (!options_.connectivity) return {};
-    out.resize(3 * plan_.counts(options_.level).triangles);
-    return write_triangles(net.topology(), options_.level, plan_.holes(), out.data(), options_.threads,
-                           budget_);
+    out.resize(plan_.corner_count(options_.level));
+    return part.lattice()->write_faces(options_.level, plan_.holes(), out.data(), options_.threads, budget_);
   }
 
   Result<void> refine_connectivity() {
-    if (auto done = write_indices(plan_.net(), out_.triangles); !done) return done;
+    if (auto done = write_indices(plan_.mesh(), out_.faces); !done) return done;
+    const Lattice& lattice = *plan_.mesh().lattice();
+    if (options_.connectivity && out_.face_size == 0) {
+      out_.face_vertex_counts.resize(out_.face_count);
+      lattice.write_face_sizes(plan_.holes(), out_.face_vertex_counts.data(), pace_);
+    }
     if (!options_.provenance) return {};
-    out_.triangle_faces = triangle_faces();
-    out_.provenance.resize(plan_.net().value_count(options_.level));
-    write_provenance(plan_.net().topology(), options_.level, out_.provenance, pace_);
+    out_.base_faces = base_faces();
+    out_.provenance.resize(plan_.mesh().value_count(options_.level));
+    lattice.write_provenance(options_.level, out_.provenance, pace_);
     return {};
   }
 
-  Buffer<Index> triangle_faces() const {
-    Buffer<Index> faces(plan_.counts(options_.level).triangles);
-    write_triangle_faces(options_.level, plan_.holes(), faces.data(), pace_);
+  Buffer<Index> base_faces() const {
+    Buffer<Index> faces(out_.face_count);
+    plan_.mesh().lattice()->write_base_faces(options_.level, plan_.holes(), faces.data(), pace_);
     return faces;
   }
 
-  Result<void> refine_values(const Net& net, Buffer<Real> control, Smoothing smoothing, bool limit,
+  Result<void> refine_values(const Refinable& part, Buffer<Real> control, Smoothing smoothing, bool limit,
                              RefinedPrimvar<Real>& out) {
-    const Count size = net.value_count(options_.level) * out.element_size;
+    const Count size = part.value_count(options_.level) * out.element_size;
     Evaluated<Real> to;
     out.values.resize(size);
     to.values = out.values.data();
@@ -121,8 +126,8 @@ class Job {
       out.limit_values.resize(size);
       to.limits = out.limit_values.data();
     }
-    return evaluate<Real>(net, options_.level, std::move(control), out.element_size, smoothing, to,
-                          options_.threads, budget_);
+    return part.evaluate(options_.level, std::move(control), out.element_size, smoothing, to,
+                         options_.threads, budget_);
   }
 
   Result<void> refine_primvars() {
@@ -140,17 +145,17 @@ class Job {
           out.values = gather_rows<Real>(primvar.values, primvar.element_size, uniform_rows(primvar), pace_);
           break;
         case Interpolation::varying:
-          done =
-              refine_values(plan_.net(), resolve_values<Real>(primvar, pace_), Smoothing::linear, false, out);
+          done = refine_values(plan_.mesh(), resolve_values<Real>(primvar, pace_), Smoothing::linear, false,
+                               out);
           break;
         case Interpolation::vertex:
-          done = refine_values(plan_.net(), resolve_values<Real>(primvar, pace_), Smoothing::smooth,
+          done = refine_values(plan_.mesh(), resolve_values<Real>(primvar, pace_), Smoothing::smooth,
                                options_.limit, out);
           break;
         case Interpolation::face_varying: {
-          const Net& net = plan_.channel_net(channel++);
-          done = refine_values(net, channel_values(primvar, net), Smoothing::smooth, options_.limit, out);
-          if (done) done = write_indices(net, out.indices);
+          const Refinable& part = plan_.channel(channel++);
+          done = refine_values(part, channel_values(primvar, part), Smoothing::smooth, options_.limit, out);
+          if (done) done = write_indices(part, out.indices);
           break;
         }
       }
@@ -159,30 +164,31 @@ class Job {
     return {};
   }
 
-  // In the order of the net's vertices.
-  Buffer<Real> channel_values(const Primvar& primvar, const Net& net) const {
-    if (net.value_indices().empty()) return convert_values<Real>(primvar.values, pace_);
-    return gather_rows<Real>(primvar.values, primvar.element_size, net.value_indices(), pace_);
+  // In the order of the channel's control values.
+  Buffer<Real> channel_values(const Primvar& primvar, const Refinable& part) const {
+    if (part.value_indices().empty()) return convert_values<Real>(primvar.values, pace_);
+    return gather_rows<Real>(primvar.values, primvar.element_size, part.value_indices(), pace_);
   }
 
-  // Row of the primvar's values for every output triangle.
+  // Row of the primvar's values for every output face.
   Buffer<Index> uniform_rows(const Primvar& primvar) const {
-    Buffer<Index> rows = triangle_faces();
+    Buffer<Index> rows = base_faces();
     if (!primvar.indices.empty())
       pace_.for_each(rows.size(), [&](Count k) { rows[k] = primvar.indices[rows[k]]; });
     return rows;
   }
 
   Result<void> refine_render_meshes() {
-    Count faces = 0;  // that are output, of those before `face`
+    const Lattice& lattice = *plan_.mesh().lattice();
+    Count faces = 0;  // refined ones that are output, of the base faces before `face`
     Index face = 0;
     out_.render_meshes.reserve(mesh_.render_meshes.size());
     for (const RenderMesh& render : mesh_.render_meshes) {  // their ranges ascend
       pace_.spend(256);
-      for (; face < render.face_begin; ++face) faces += plan_.holes()[face] == 0;
-      const auto triangle_begin = static_cast<Index>(faces * triangles_per_face(options_.level));
-      auto refined = refine_render_mesh(render, plan_.shared_render_mesh(out_.render_meshes.size()), plan_,
-                                        options_.level, triangle_begin, budget_);
+      for (; face < render.face_begin; ++face)
+        if (plan_.holes()[face] == 0) faces += lattice.faces_of(face, options_.level);
+      auto refined = refine_render_mesh(render, plan_.render_lattice(out_.render_meshes.size()), plan_,
+                                        options_.level, static_cast<Index>(faces), budget_);
       if (!refined) return std::move(refined).error();
       out_.render_meshes.push_back(std::move(*refined));
     }

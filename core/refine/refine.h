@@ -22,8 +22,8 @@ struct RefineOptions {
   bool limit = false;        // fill limit_points and limit_values: where refining for ever would lead
   bool tangents = false;     // fill tangents_u, tangents_v
   bool normals = false;      // fill normals: unit normals of the limit surface
-  bool connectivity = true;  // fill triangles and the primvars' indices; render meshes have their own
-  bool provenance = true;    // fill provenance and triangle_faces
+  bool connectivity = true;  // fill faces and the primvars' indices; render meshes have their own
+  bool provenance = true;    // fill provenance and base_faces
   Index threads = 1;         // how many work on it; the answer is the same for any number
 };
 
@@ -31,11 +31,13 @@ PlanOptions plan_options(const RefineOptions& options);
 
 // What refine() would return, known beforehand.
 struct RefinedSize {
-  LevelCounts counts;                  // of the connectivity of positions; triangles: holes left out
+  Count corners = 0;                   // of all output faces
+  LevelCounts counts;                  // of the connectivity of positions; faces: holes left out
   std::vector<Count> channel_values;   // per face-varying primvar, in order of ControlMesh::primvars
   std::vector<Count> render_vertices;  // per RenderMesh
-  Count bytes = 0;                     // of all arrays of RefinedMesh<Real> together
-  Count working_bytes = 0;             // what refine() needs beside them, at most; the plan among it
+  std::vector<Count> render_triangles;
+  Count bytes = 0;          // of all arrays of RefinedMesh<Real> together
+  Count working_bytes = 0;  // what refine() needs beside them, at most; the plan among it
 };
 
 // `plan`: of that mesh, for options.level at least. Refuses (out_of_range, too_large) levels over kMaxLevel

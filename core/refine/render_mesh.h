@@ -12,12 +12,10 @@
 
 namespace subdivd {
 
-// `connectivity`: the plan's, of this render mesh. `triangle_begin`: output triangles of the faces before
-// this render mesh's. Takes time and memory for its own faces and vertices alone: a mesh may have a hundred
-// thousand of them.
+// `lattice`: the plan's, of this render mesh. `face_begin`: output faces of the base faces before this render mesh's.
+// Takes time and memory for its own faces and vertices alone: a mesh may have a hundred thousand of them.
 Result<RefinedRenderMesh> refine_render_mesh(const RenderMesh& mesh,
-                                             std::shared_ptr<const Connectivity<Triangles>> connectivity,
-                                             const Plan& plan, Index level, Index triangle_begin,
-                                             const Budget& budget);
+                                             const std::shared_ptr<const Lattice>& lattice, const Plan& plan,
+                                             Index level, Index face_begin, const Budget& budget);
 
 }  // namespace subdivd

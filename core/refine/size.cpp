@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "core/base/pace.h"
-#include "core/lattice/numbering.h"
 #include "core/refine/refine.h"
 
 namespace subdivd {
@@ -19,47 +18,26 @@ Result<void> check_count(std::string_view what, Count predicted) {
                .allowed = kMaxIndexCount};
 }
 
-// The two levels below the last, the control values, and what is semi-sharp along edges under Chaikin's rule.
-template <class Real>
-Count evaluation_bytes(const Net& net, const RefineOptions& options, Count width) {
-  const Index level = options.level;
-  Count values = net.value_count(0);
-  for (Index below = 1; below <= 2 && below < level; ++below) values += net.value_count(level - below);
-  return values * width * sizeof(Real) + net.topology().edge_count();
-}
-
-// Per semi-sharp edge and crease point while nets are built; per value of a channel while it is numbered; and
-// of objects, of which there may be a hundred thousand, whatever they hold.
-constexpr Count kSemiSharpBytes = 64, kCreaseBytesPerPoint = 32, kValueBytes = 16, kBytesPerPrimvar = 512,
-                kBytesPerRenderMesh = 512, kBytesPerSource = 64, kBytesPerRenderFace = 136;
-
-// While the ring of a hub is looked at, which is as large as the mesh.
-constexpr Count kHub = 4096, kBytesPerRingCorner = 176;
-
-Count ring_bytes(const Topology<Triangles>& topology, const Pace& pace) {
-  Count corners = 0;
-  pace.for_each(topology.vertex_count(), [&](Index v) {
-    if (const Count here = topology.vertex_corners(v).size(); here > kHub) corners += here;
-  });
-  return corners * kBytesPerRingCorner;
-}
+// Per crease point while nets are built; per value of a channel while it is numbered; and of objects, of which there
+// may be a hundred thousand, whatever they hold.
+constexpr Count kCreaseBytesPerPoint = 32, kValueBytes = 16, kBytesPerPrimvar = 512,
+                kBytesPerRenderMesh = 512, kBytesPerSource = 64, kBytesPerRenderCorner = 45;
 
 // What refine() needs beside its answer: the nets one after the other, then values one after the other.
 template <class Real>
 Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const Plan& plan,
                     const Pace& pace) {
   const bool limits = options.limit || options.tangents || options.normals;
-  const Count rings_of_mesh = limits ? ring_bytes(plan.net().topology(), pace) : 0;
   Count resident = 0, building = 0, evaluation = 0;
-  const auto add_net = [&](const Net& net, Count width) {
-    resident += net.resident_bytes();
-    if (options.crease_method == CreaseMethod::chaikin)
-      resident += chaikin_bytes(net.semi_sharp(0).edges.size(), std::max(net.max_level(), options.level));
-    building = std::max(building, net.building_bytes() + kSemiSharpBytes * net.semi_sharp(0).edges.size());
-    evaluation = std::max(evaluation, evaluation_bytes<Real>(net, options, width) +
-                                          (limits ? ring_bytes(net.topology(), pace) : 0));
+  const auto evaluation_of = [&](const Refinable& part, Count width) {
+    return part.evaluation_bytes(options.level, static_cast<Index>(width), sizeof(Real), limits, pace);
   };
-  add_net(plan.net(), 3);
+  const auto add_part = [&](const Refinable& part, Count width) {
+    resident += part.resident_bytes();
+    building = std::max(building, part.building_bytes());
+    evaluation = std::max(evaluation, evaluation_of(part, width));
+  };
+  add_part(plan.mesh(), 3);
   if (!mesh.crease_lengths.empty())
     building += kCreaseBytesPerPoint * mesh.crease_indices.size() + 12 * mesh.point_count();
   std::size_t channel = 0;
@@ -67,22 +45,21 @@ Count working_bytes(const ControlMesh& mesh, const RefineOptions& options, const
     pace.spend(64);
     resident += kBytesPerPrimvar;
     if (primvar.interpolation == Interpolation::face_varying) {
-      add_net(plan.channel_net(channel++), primvar.element_size);
-      building = std::max(building, plan.channel_net(channel - 1).building_bytes() +
-                                        kValueBytes * plan.channel_net(channel - 1).value_count(0) +
+      const Refinable& part = plan.channel(channel++);
+      add_part(part, primvar.element_size);
+      building = std::max(building, part.building_bytes() + kValueBytes * part.value_count(0) +
                                         4 * mesh.face_vertex_indices.size() + 4 * mesh.point_count());
     } else if (primvar.interpolation == Interpolation::uniform) {
-      evaluation = std::max(evaluation, plan.counts(options.level).triangles * Count{sizeof(Index)});
+      evaluation = std::max(evaluation, plan.counts(options.level).faces * Count{sizeof(Index)});
     } else if (primvar.interpolation != Interpolation::constant) {
-      evaluation = std::max(
-          evaluation, evaluation_bytes<Real>(plan.net(), options, primvar.element_size) + rings_of_mesh);
+      evaluation = std::max(evaluation, evaluation_of(plan.mesh(), primvar.element_size));
     }
   }
   for (const RenderMesh& render : mesh.render_meshes) {
-    const Count faces = render.face_end - render.face_begin;
-    resident +=
-        kBytesPerRenderMesh + kBytesPerSource * plan.channel_count() + (kBytesPerRenderFace + 1) * faces;
-    building = std::max(building, topology_building_bytes(render.vertex_count, faces));
+    const Count faces = render.face_end - render.face_begin, corners = render.indices.size();
+    resident += kBytesPerRenderMesh + kBytesPerSource * plan.channel_count() + faces +
+                kBytesPerRenderCorner * corners;
+    building = std::max(building, topology_building_bytes(render.vertex_count, corners));
   }
   return resident + std::max(building, evaluation);
 }
@@ -92,15 +69,19 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
                                     const Pace& pace) {
   RefinedSize size;
   size.counts = plan.counts(options.level);
+  size.corners = plan.corner_count(options.level);
   if (auto fits = check_count("vertices", size.counts.vertices); !fits) return std::move(fits).error();
-  const Count all_triangles = plan.net().topology().face_count() * triangles_per_face(options.level);
-  if (auto fits = check_count("triangle corners", 3 * all_triangles); !fits) return std::move(fits).error();
+  const Lattice& lattice = *plan.mesh().lattice();
+  if (auto fits = check_count("face corners", lattice.corner_count(options.level)); !fits)
+    return std::move(fits).error();
 
-  const Count indices = options.connectivity ? 3 * sizeof(Index) * size.counts.triangles : 0;
+  const Count indices = options.connectivity ? sizeof(Index) * size.corners : 0;
   const Count vectors = 1 + Count{options.limit} + 2 * Count{options.tangents} + Count{options.normals};
   size.bytes = size.counts.vertices * 3 * vectors * sizeof(Real) + indices;
+  if (options.connectivity && lattice.face_size(options.level) == 0)
+    size.bytes += sizeof(Index) * size.counts.faces;
   if (options.provenance)
-    size.bytes += size.counts.vertices * sizeof(Provenance) + size.counts.triangles * sizeof(Index);
+    size.bytes += size.counts.vertices * sizeof(Provenance) + size.counts.faces * sizeof(Index);
   std::size_t channel = 0;
   for (const Primvar& primvar : mesh.primvars) {
     pace.spend(16);
@@ -110,7 +91,7 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
       case Interpolation::constant:
         break;
       case Interpolation::uniform:
-        values = size.counts.triangles;
+        values = size.counts.faces;
         break;
       case Interpolation::varying:
         values = size.counts.vertices;
@@ -120,7 +101,7 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
         has_limit = options.limit;
         break;
       case Interpolation::face_varying:
-        values = plan.channel_net(channel++).value_count(options.level);
+        values = plan.channel(channel++).value_count(options.level);
         if (auto fits = check_count("values of a face-varying primvar", values); !fits)
           return std::move(fits).error();
         size.channel_values.push_back(values);
@@ -132,13 +113,17 @@ Result<RefinedSize> size_of_refined(const ControlMesh& mesh, const RefineOptions
   }
   for (std::size_t k = 0; k < mesh.render_meshes.size(); ++k) {
     pace.spend(64);
-    const Count vertices = Numbering(plan.render_mesh(k), options.level).vertex_count();
+    const std::shared_ptr<const Lattice>& render = plan.render_lattice(k);
+    const Count vertices = render->vertex_count(options.level);
     if (auto fits = check_count("render vertices", vertices); !fits) return std::move(fits).error();
     size.render_vertices.push_back(vertices);
-    const Connectivity<Triangles>& connectivity = plan.render_mesh(k);
-    Count sources = &connectivity != &plan.net().topology();
-    for (std::size_t c = 0; c < plan.channel_count(); ++c)
-      sources += &connectivity != &plan.channel_net(c).topology();
+    const RenderMesh& faces = mesh.render_meshes[k];
+    const auto holes = plan.holes().subspan(faces.face_begin, faces.face_end - faces.face_begin);
+    size.render_triangles.push_back(render->triangle_count(options.level, holes, pace));
+    if (auto fits = check_count("triangle corners", 3 * size.render_triangles.back()); !fits)
+      return std::move(fits).error();
+    Count sources = render != plan.mesh().lattice();
+    for (std::size_t c = 0; c < plan.channel_count(); ++c) sources += render != plan.channel(c).lattice();
     size.bytes += vertices * sizeof(Index) * sources;
   }
   size.working_bytes = working_bytes<Real>(mesh, options, plan, pace);

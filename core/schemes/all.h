@@ -11,10 +11,12 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/schemes/bilinear.h"
+#include "core/schemes/catmull_clark.h"
 #include "core/schemes/loop.h"
 
 // What stands once for every scheme (explicit instantiations) is made by this.
-#define SUBDIVD_FOR_EACH_SCHEME(X) X(Loop)
+#define SUBDIVD_FOR_EACH_SCHEME(X) X(Loop) X(CatmullClark) X(Bilinear)
 
 namespace subdivd {
 
@@ -63,18 +65,43 @@ static_assert(
     }(),
     "every scheme of the list needs a name of its own");
 
-// The scheme of that name with the options that it has in `schemes`; nothing when there is none.
-inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSchemes& schemes = {}) {
-  std::optional<AnyScheme> found;
+namespace detail {
+// The first scheme of the list for which is_it<S>() holds.
+template <class Test>
+std::optional<AnyScheme> find_first(const AllSchemes& schemes, Test&& is_it) {
+  AnyScheme found;
+  bool any = false;
   for_each_scheme(schemes, [&]<class S>(const S& scheme) {
-    if (S::name == name) found = scheme;
+    if (any || !is_it.template operator()<S>()) return;
+    found = scheme;
+    any = true;
   });
+  if (!any) return std::nullopt;
   return found;
 }
+}  // namespace detail
 
-// The scheme that a mesh names; the first of the list when it names none.
-inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, const AllSchemes& schemes = {}) {
-  return find_scheme(name.empty() ? kSchemeNames.front() : name, schemes);
+// The scheme of that name with the options that it has in `schemes`; nothing when there is none.
+inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSchemes& schemes = {}) {
+  return detail::find_first(schemes, [&]<class S>() { return S::name == name; });
+}
+
+// The sizes of faces that a scheme takes.
+inline FaceSizes face_sizes_of(const AnyScheme& scheme) {
+  return std::visit([]<class S>(const S&) { return S::face_sizes; }, scheme);
+}
+
+inline bool splits_into_triangles(const AnyScheme& scheme) {
+  return std::visit([]<class S>(const S&) { return S::split == Split::triangles; }, scheme);
+}
+
+// The scheme that a mesh names; when it names none the first of the list that takes faces of its sizes.
+inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, FaceSizes sizes,
+                                               const AllSchemes& schemes = {}) {
+  if (!name.empty()) return find_scheme(name, schemes);
+  return detail::find_first(schemes, [&]<class S>() {
+    return S::face_sizes.least <= sizes.least && sizes.most <= S::face_sizes.most;
+  });
 }
 
 // Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and

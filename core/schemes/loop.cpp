@@ -14,12 +14,6 @@ using std::numbers::pi;
 
 VertexMask smooth_mask(double beta, Index n) { return {1 - n * beta, beta, 0, {0, 0}}; }
 
-double sum_of(const RingMask& mask) {
-  double sum = mask.self;
-  for (double weight : mask.edges) sum += weight;
-  return sum;
-}
-
 }  // namespace
 
 std::span<const SchemeOption<Loop>> Loop::options() {

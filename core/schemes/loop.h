@@ -23,6 +23,7 @@ struct Loop {
   static constexpr Split split = Split::triangles;
   static constexpr FaceSizes face_sizes{3, 3};
   static constexpr Index regular_valence = 6;
+  static constexpr Index flat_corner_faces = 2;
 
   LoopWeights weights = LoopWeights::loop;
 

@@ -65,7 +65,7 @@ concept HasMasks = requires(const S& scheme, EdgeRing e, VertexRing v) {
 };
 
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
-// in cyclic order.
+// in cyclic order. Where the split makes quads, of a ring of quads.
 template <class S>
 concept HasLimitMasks = requires(const S& scheme, Index n, Index a, Index b, Pace pace) {
   { scheme.smooth_limit_mask(n) } -> std::same_as<VertexMask>;
@@ -74,11 +74,14 @@ concept HasLimitMasks = requires(const S& scheme, Index n, Index a, Index b, Pac
   { scheme.dart_limit_mask(n, pace) } -> std::same_as<RingMask>;
 };
 
-// Of n weights: two tangents at a smooth vertex, u x v outwards on a ring that runs counter-clockwise, and
-// what takes the place of u at a dart, where v is the same. Of m + 1 weights: across a sector of m faces
-// between the crease edges 0 and m; along the crease it is e_0 - e_m.
+// Of n edges: two tangents at a smooth vertex, u x v outwards on a ring that runs counter-clockwise, and
+// what takes the place of u at a dart, where v is the same. Of m + 1 edges: across a sector of m faces
+// between the crease edges 0 and m; along the crease it is e_0 - e_m. A sharp corner of up to flat_corner_faces
+// has the plane of its two border edges as tangent plane, one of more faces in general none: the border edges shrink
+// by 1/2 a level, and what lies between them must shrink faster.
 template <class S>
 concept HasTangentMasks = requires(const S& scheme, Index n, Index m, Pace pace) {
+  typename std::integral_constant<Index, S::flat_corner_faces>;
   { scheme.smooth_tangent_u(n) } -> std::same_as<RingMask>;
   { scheme.smooth_tangent_u(n, pace) } -> std::same_as<RingMask>;
   { scheme.smooth_tangent_v(n) } -> std::same_as<RingMask>;
@@ -107,10 +110,10 @@ struct RequireScheme {
   static_assert(
       HasLimitMasks<S>,
       "a scheme needs smooth_, crease_ and dart_limit_mask, the last with a pace too: see HasLimitMasks");
-  static_assert(
-      HasTangentMasks<S>,
-      "a scheme needs smooth_tangent_u and _v, dart_tangent_u and crease_tangent_across, with a pace "
-      "and without: see HasTangentMasks");
+  static_assert(HasTangentMasks<S>,
+                "a scheme needs flat_corner_faces, smooth_tangent_u and _v, dart_tangent_u and "
+                "crease_tangent_across, with a "
+                "pace and without: see HasTangentMasks");
   static_assert(AnswersForOpenSubdiv<S>,
                 "a scheme needs beyond_opensubdiv(): see beyond_opensubdiv() of all.h");
 };

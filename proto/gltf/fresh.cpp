@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "core/refine/plan.h"
+#include "core/schemes/all.h"
 #include "proto/gltf/caps.h"
 #include "proto/gltf/gltf.h"
 #include "proto/gltf/weld.h"
@@ -211,6 +213,22 @@ Result<SplitVertices> split_vertices(const std::vector<Index>& corners,
   return SplitVertices{static_cast<Index>(weld->first.size()), std::move(weld->id)};
 }
 
+namespace {
+
+// Faces that refine to others than triangles are cut for the answer, as those of render meshes are.
+Result<void> add_whole(ControlMesh& mesh, const AllSchemes& schemes, Work& work) {
+  const auto scheme = scheme_of(mesh, schemes);
+  if (!scheme || splits_into_triangles(*scheme)) return {};  // what cannot be refined is refused by the plan
+  const Count corners = mesh.face_vertex_indices.size();
+  if (auto stop = work.spend(corners / 4)) return *std::move(stop);
+  if (auto kept = work.keep(corners * sizeof(Index) + kBlockBytes); !kept) return kept.error();
+  mesh.render_meshes.push_back({0, static_cast<Index>(mesh.face_count()),
+                                static_cast<Index>(mesh.point_count()), mesh.face_vertex_indices});
+  return {};
+}
+
+}  // namespace
+
 Result<void> add_render_meshes(RefineRequest& request, const Budget& budget) {
   // Before anything is refined for an answer that cannot be written.
   if (auto few = check_primitives(request); !few) return few;
@@ -221,7 +239,10 @@ Result<void> add_render_meshes(RefineRequest& request, const Budget& budget) {
     for (const Primvar& primvar : mesh.primvars)
       if (primvar.interpolation == Interpolation::face_varying && is_expressible(primvar))
         indices.push_back(&primvar.indices);
-    if (indices.empty()) continue;
+    if (indices.empty()) {
+      if (auto added = add_whole(mesh, request.options.schemes, work); !added) return added;
+      continue;
+    }
     auto split = split_vertices(mesh.face_vertex_indices, indices, work);
     if (!split) return split.error();
     mesh.render_meshes.push_back(

@@ -57,7 +57,7 @@ RefinedMesh<Real> mesh_of(RefinedPatch<Real> surface) {
   RefinedMesh<Real> mesh;
   Buffer<Real>& points = surface.limit_points.empty() ? surface.points : surface.limit_points;
   mesh.points = in_space(std::move(points), surface.width);
-  mesh.triangles = std::move(surface.faces);
+  mesh.faces = std::move(surface.faces);
   mesh.normals = std::move(surface.normals);
   return mesh;
 }
@@ -103,15 +103,12 @@ Count envelope_bytes(const RefineRequest& request) {
   return bytes;
 }
 
-Count triangles_bytes(const TrianglesSlot& slot, const ControlMesh& mesh, const RefinedSize& size,
-                      Index level) {
-  Count vertices = size.counts.vertices, faces = mesh.face_count();
+Count triangles_bytes(const TrianglesSlot& slot, const ControlMesh& mesh, const RefinedSize& size) {
+  Count vertices = size.counts.vertices, corners = size.corners;
   if (slot.render_mesh != kNoIndex) {
-    const RenderMesh& render = mesh.render_meshes[slot.render_mesh];
     vertices = size.render_vertices[slot.render_mesh];
-    faces = render.face_end - render.face_begin;
+    corners = 3 * size.render_triangles[slot.render_mesh];
   }
-  const Count corners = 3 * faces * triangles_per_face(level);
   Count floats = slot.normals ? 6 : 3;
   for (const AttributeSlot& attribute : slot.attributes) {
     floats += attribute.components;
@@ -179,8 +176,7 @@ Result<Count> predicted_bytes(const RefineRequest& request, const std::vector<Re
   };
   for (const TrianglesSlot& slot : source.triangles) {
     if (auto stop = work.spend(32)) return *std::move(stop);
-    bin += triangles_bytes(slot, request.meshes[slot.control_mesh], meshes[slot.control_mesh],
-                           request.options.level);
+    bin += triangles_bytes(slot, request.meshes[slot.control_mesh], meshes[slot.control_mesh]);
     add_attributes(slot.attributes, 3);
   }
   for (const CurvesSlot& slot : source.curves) {

@@ -73,7 +73,7 @@ template <class Real>
 Result<void> TrianglesWriter<Real>::find_vertices() {
   if (slot_.render_mesh == kNoIndex) {
     vertex_count_ = static_cast<Index>(mesh_.points.size() / 3);
-    indices_ = std::move(mesh_.triangles);
+    indices_ = std::move(mesh_.faces);
     return {};
   }
   render_ = &mesh_.render_meshes[slot_.render_mesh];

@@ -2,6 +2,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/lattice/split.h"
@@ -14,38 +16,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Edges of the control mesh. The number of refined points tells it without finding every edge again, which
-// would take longer than writing the answer; 0 points: there is no refined mesh. Nothing when they cannot be
-// numbered.
-Result<std::optional<Count>> edge_count(const ControlMesh& mesh, Index level, Count refined_points,
-                                        const Budget& budget) {
-  if (level > 0 && refined_points > 0) {
-    const Count on_edge = (Count{1} << level) - 1;  // points inside each
-    const Count without = refined_counts(mesh.point_count(), 0, mesh.face_count(), level).vertices;
-    return std::optional((refined_points - without) / on_edge);
-  }
+// What there is at every level of a mesh that nothing was refined of; nothing when it cannot be numbered, or refined.
+Result<std::vector<LevelCounts>> counted_levels(const ControlMesh& mesh, const Options& options,
+                                                const Budget& budget) {
   Budget counting = budget;
   counting.max_bytes = std::numeric_limits<Count>::max();  // no mesh comes out
-  const auto size = predict_size<float>(mesh, {.level = 0}, counting);
-  if (size) return std::optional(size->counts.edges);
-  if (size.error().code == ErrorCode::too_large) return std::optional<Count>();
-  return size.error();
+  const auto plan = Plan::build(mesh, {options.schemes, options.crease_method, 0}, counting);
+  std::vector<LevelCounts> levels;
+  if (!plan) {
+    if (is_stop(plan.error())) return plan.error();
+    return levels;
+  }
+  for (Index level = 0; level <= options.level; ++level)
+    levels.push_back(plan->mesh().lattice()->counts(level));
+  return levels;
+}
+
+std::string_view name_of_faces(Index face_size) {
+  return face_size == 3 ? "triangles" : face_size == 4 ? "quads" : "faces";
 }
 
 // Holes count here: they are refined, too.
-Result<Json> mesh_levels(const ControlMesh& mesh, Index level, Count refined_points, const Budget& budget) {
+Json mesh_levels(std::span<const LevelCounts> counts) {
   Json levels = Json::array();
-  const auto counted = edge_count(mesh, level, refined_points, budget);
-  if (!counted) return counted.error();
-  const std::optional<Count> edges = *counted;
-  if (!edges) return levels;
-  for (Index l = 0; l <= level; ++l) {
-    const LevelCounts counts = refined_counts(mesh.point_count(), *edges, mesh.face_count(), l);
+  for (std::size_t l = 0; l < counts.size(); ++l)
     levels.push_back({{"level", l},
-                      {"vertices", counts.vertices},
-                      {"edges", counts.edges},
-                      {"triangles", counts.triangles}});
-  }
+                      {"vertices", counts[l].vertices},
+                      {"edges", counts[l].edges},
+                      {name_of_faces(counts[l].face_size), counts[l].faces}});
   return levels;
 }
 
@@ -57,14 +55,13 @@ Json curve_levels(const ControlCurves& curves, Index level) {
   return levels;
 }
 
-Result<Json> mesh_statistics(const ControlMesh& mesh, Index level, Count refined_points,
-                             const Budget& budget) {
-  auto levels = mesh_levels(mesh, level, refined_points, budget);
-  if (!levels) return levels;
+// `scheme`: empty where nothing was refined.
+Json mesh_statistics(const ControlMesh& mesh, std::string_view scheme, std::span<const LevelCounts> levels) {
   Json json;
   if (!mesh.name.empty()) json["name"] = mesh.name;
+  if (!scheme.empty()) json["subdivisionScheme"] = scheme;
   json["input"] = {{"points", mesh.point_count()}, {"faces", mesh.face_count()}};
-  json["levels"] = *std::move(levels);
+  json["levels"] = mesh_levels(levels);
   return json;
 }
 
@@ -106,18 +103,17 @@ class StatisticsWriter {
   Result<std::string> write(const RefineAnswer<Real>* answer) {
     const Index level = request_.options.level;
     text_ = "{";
-    const auto refined = [&](std::size_t i) {
-      const bool known = answer != nullptr && i < answer->meshes.size();
-      return known ? answer->meshes[i].points.size() / 3 : 0;
-    };
     add("meshes", request_.meshes.size(), [&](std::size_t i) {
-      auto counted = mesh_statistics(request_.meshes[i], level, refined(i), budget_);
-      if (!counted) stopped_ = counted.error();
-      Json json = counted ? *std::move(counted) : Json();
-      if (answer != nullptr && i < answer->meshes.size())
-        json["output"] = {{"points", answer->meshes[i].points.size() / 3},
-                          {"triangles", answer->meshes[i].triangle_count}};
-      return json;
+      if (answer != nullptr && i < answer->meshes.size()) {
+        const RefinedMesh<Real>& refined = answer->meshes[i];
+        Json json = mesh_statistics(request_.meshes[i], refined.scheme, refined.levels);
+        json["output"] = {{"points", refined.points.size() / 3},
+                          {name_of_faces(refined.face_size), refined.face_count}};
+        return json;
+      }
+      const auto levels = counted_levels(request_.meshes[i], request_.options, budget_);
+      if (!levels) stopped_ = levels.error();
+      return levels ? mesh_statistics(request_.meshes[i], {}, *levels) : Json();
     });
     add("curves", request_.curves.size(), [&](std::size_t i) {
       Json json = curve_statistics(request_.curves[i], level);

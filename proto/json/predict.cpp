@@ -22,9 +22,10 @@ Count tuples_text(Count tuples, Count width, Count number) { return tuples * (wi
 Count indices_text(Count count, Count values) { return count * (digits(values) + 1) + 2; }
 
 Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, bool normals) {
-  const Count vertices = size.counts.vertices, triangles = size.counts.triangles;
-  Count bytes = kMemberText + name_text(mesh.name) + tuples_text(vertices, 3, number) + 2 * triangles +
-                indices_text(3 * triangles, vertices);
+  const Count vertices = size.counts.vertices, faces = size.counts.faces, corners = size.corners;
+  Count bytes = kMemberText + name_text(mesh.name) + tuples_text(vertices, 3, number) + 2 * faces +
+                indices_text(corners, vertices);
+  if (size.counts.face_size != 3) bytes += indices_text(faces, corners);
   if (normals) bytes += tuples_text(vertices, 3, number);
   std::size_t channel = 0;
   for (const Primvar& primvar : mesh.primvars) {
@@ -34,7 +35,7 @@ Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, 
         values = 1;
         break;
       case Interpolation::uniform:
-        values = triangles;
+        values = faces;
         break;
       case Interpolation::varying:
       case Interpolation::vertex:
@@ -45,7 +46,7 @@ Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, 
         break;
     }
     bytes += kMemberText + name_text(primvar.name) + tuples_text(values, primvar.element_size, number);
-    if (primvar.interpolation == Interpolation::face_varying) bytes += indices_text(3 * triangles, values);
+    if (primvar.interpolation == Interpolation::face_varying) bytes += indices_text(corners, values);
   }
   return bytes;
 }

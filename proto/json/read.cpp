@@ -115,6 +115,7 @@ const std::array<Cursor::Member<DocumentReader>, DocumentReader::kMembers>& Docu
       {"faceVertexIndices", &D::of_mesh<&M::face_vertex_indices>},
       {"orientation", &D::of_mesh<&M::orientation>},
       {"subdivisionScheme", &D::of_mesh<&M::subdivision_scheme>},
+      {"triangleSubdivisionRule", &D::of_mesh<&M::triangle_subdivision_rule>},
       {"interpolateBoundary", &D::of_mesh<&M::interpolate_boundary>},
       {"faceVaryingLinearInterpolation", &D::of_mesh<&M::face_varying_linear_interpolation>},
       {"creaseIndices", &D::of_mesh<&M::crease_indices>},

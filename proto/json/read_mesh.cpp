@@ -40,6 +40,7 @@ const std::array<Cursor::Member<MeshReader>, MeshReader::kMembers>& MeshReader::
       {"faceVertexIndices", &MeshReader::face_vertex_indices},
       {"orientation", &MeshReader::orientation},
       {"subdivisionScheme", &MeshReader::subdivision_scheme},
+      {"triangleSubdivisionRule", &MeshReader::triangle_subdivision_rule},
       {"interpolateBoundary", &MeshReader::interpolate_boundary},
       {"faceVaryingLinearInterpolation", &MeshReader::face_varying_linear_interpolation},
       {"creaseIndices", &MeshReader::crease_indices},
@@ -86,6 +87,13 @@ bool MeshReader::subdivision_scheme() {
   std::size_t word = 0;
   if (!cursor_.read_word(kSchemeNames, word)) return false;
   result_.mesh.subdivision_scheme = kSchemeNames[word];
+  return true;
+}
+
+bool MeshReader::triangle_subdivision_rule() {
+  std::size_t word = 0;
+  if (!cursor_.read_word(triangle_rule_words(), word)) return false;
+  result_.mesh.triangle_subdivision_rule = static_cast<TriangleRule>(word);
   return true;
 }
 

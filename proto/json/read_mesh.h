@@ -36,7 +36,7 @@ class MeshReader {
  public:
   explicit MeshReader(Cursor& cursor) : cursor_(cursor) {}
 
-  static constexpr std::size_t kMembers = 16;
+  static constexpr std::size_t kMembers = 17;
   static const std::array<Cursor::Member<MeshReader>, kMembers>& members();
 
   // To be called standing in the mesh, after its last member.
@@ -49,6 +49,7 @@ class MeshReader {
   bool face_vertex_indices();
   bool orientation();
   bool subdivision_scheme();
+  bool triangle_subdivision_rule();
   bool interpolate_boundary();
   bool face_varying_linear_interpolation();
   bool crease_indices();

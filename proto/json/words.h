@@ -16,11 +16,13 @@ std::span<const std::string_view> interpolation_words();
 std::span<const std::string_view> wrap_words();
 std::span<const std::string_view> basis_words();  // of the kinds that `basis` names, in their order
 std::span<const std::string_view> spacing_words();
-std::span<const std::string_view> orientation_words();  // of `orientation`
+std::span<const std::string_view> triangle_rule_words();  // of `triangleSubdivisionRule`
+std::span<const std::string_view> orientation_words();    // of `orientation`
 
 std::string_view word_of(Interpolation interpolation);
 std::string_view word_of(BoundaryInterpolation interpolation);
 std::string_view word_of(FaceVaryingInterpolation interpolation);
+std::string_view word_of(TriangleRule rule);
 std::string_view word_of(CurveWrap wrap);
 std::string_view word_of(Orientation orientation);
 

@@ -59,10 +59,20 @@ class AnswerWriter {
     const JsonMeshForm form = i < request_.mesh_forms.size() ? request_.mesh_forms[i] : JsonMeshForm{};
     word("name", mesh.name, !mesh.name.empty());
     array(chosen(mesh.points, mesh.limit_points), "points", 3, form.points, i);
+    // Faces of a body without counts are triangles.
+    if (mesh.face_size != 3) {
+      text_.key("faceVertexCounts");
+      if (mesh.face_size != 0) mesh.face_vertex_counts = Buffer<Index>(mesh.face_count, mesh.face_size);
+      text_.indices(std::exchange(mesh.face_vertex_counts, {}), 1, ArrayForm::flat);
+    }
     text_.key("faceVertexIndices");
-    text_.indices(std::exchange(mesh.triangles, {}), 3, form.faces);
+    text_.indices(std::exchange(mesh.faces, {}), std::max<Index>(mesh.face_size, 1),
+                  mesh.face_size == 0 ? ArrayForm::flat : form.faces);
     const bool left_handed = form.orientation == Orientation::left_handed;
     word("orientation", word_of(form.orientation), left_handed);
+    word("subdivisionScheme", mesh.scheme, !mesh.scheme.empty());
+    word("triangleSubdivisionRule", word_of(control.triangle_subdivision_rule),
+         control.triangle_subdivision_rule != TriangleRule::catmull_clark);
     word("interpolateBoundary", word_of(control.interpolate_boundary));
     word("faceVaryingLinearInterpolation", word_of(control.face_varying_linear_interpolation));
     if (!mesh.primvars.empty()) {

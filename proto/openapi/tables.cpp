@@ -32,7 +32,7 @@ void add_words(Json& named) {
   named["words.spacing"] = list(json::spacing_words());
   named["words.orientation"] = list(json::orientation_words());
   named["words.schemes"] = list(kSchemeNames);
-  named["standard.scheme"] = kSchemeNames.front();
+  named["words.triangleRule"] = list(json::triangle_rule_words());
   for (const OptionSpec& spec : option_table())
     if (spec.kind == OptionKind::word) named["words." + std::string(spec.name)] = list(spec.words);
 }

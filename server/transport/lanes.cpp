@@ -46,6 +46,7 @@ void Lanes::push(Connections one) {
 
 Connections Lanes::pop(Lane lane) {
   Connections one;
+  demand_.came_free();
   std::unique_lock lock(mutex_);
   Queue& from = queue(lane);
   ++from.spare_threads;

@@ -12,19 +12,35 @@ namespace subdivd::server {
 using Clock = std::chrono::steady_clock;
 
 // How many requests have waited for a thread so long that slow transfers should make room for them. One asks,
-// many claim: no more transfers end than requests wait.
+// many claim: no more transfers end than requests wait. The thread of one that ends takes a while to come free, and the
+// request still waits when it is asked for again: those on their way count.
 class ThreadDemand {
  public:
-  void ask(std::size_t threads) { wanted_.store(threads, std::memory_order_relaxed); }
+  // Of all requests that wait.
+  void ask(std::size_t threads) {
+    const std::size_t leaving = leaving_.load();
+    wanted_.store(threads - std::min(threads, leaving));
+  }
+  // True: the transfer that asks is to end.
   bool claim() {
-    std::size_t wanted = wanted_.load(std::memory_order_relaxed);
-    while (wanted > 0)
-      if (wanted_.compare_exchange_weak(wanted, wanted - 1, std::memory_order_relaxed)) return true;
+    ++leaving_;
+    if (lower(wanted_)) return true;
+    lower(leaving_);
+    return false;
+  }
+  // A thread looks for its next request.
+  void came_free() { lower(leaving_); }
+
+ private:
+  // False when it is 0.
+  static bool lower(std::atomic<std::size_t>& number) {
+    std::size_t now = number.load();
+    while (now > 0)
+      if (number.compare_exchange_weak(now, now - 1)) return true;
     return false;
   }
 
- private:
-  std::atomic<std::size_t> wanted_ = 0;
+  std::atomic<std::size_t> wanted_ = 0, leaving_ = 0;
 };
 
 // A grace period, and one second more for every MiB that has moved. A client that drips a byte a second, to

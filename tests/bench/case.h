@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "core/base/buffer.h"
-#include "core/engine/tri_grid/evaluate.h"
-#include "core/lattice/triangles.h"
 #include "core/oracle/far_timing.h"
 #include "core/refine/plan.h"
+#include "core/refine/refinable.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/bench/workloads.h"
 
@@ -50,7 +49,7 @@ struct Output {
   Buffer<Index> triangles;
 
   explicit Output(const LevelCounts& counts)
-      : points(3 * counts.vertices, 0.f), triangles(3 * counts.triangles, 0u) {}
+      : points(3 * counts.vertices, 0.f), triangles(3 * counts.faces, 0u) {}
   explicit Output(const Case& cell) : Output(cell.plan().counts(cell.level)) {}
   std::size_t bytes() const { return points.size() * sizeof(float) + triangles.size() * sizeof(Index); }
 };
@@ -65,10 +64,10 @@ inline OurTimes run_ours(const Case& cell, Index threads, Output& out) {
   Stopwatch stopwatch;
   const Plan plan = cell.plan();
   times.plan = stopwatch.lap();
-  must(evaluate<float>(plan.net(), cell.level, cell.workload->points, 3, Smoothing::smooth,
+  must(evaluate<float>(plan.mesh(), cell.level, cell.workload->points, 3, Smoothing::smooth,
                        {.values = out.points.data()}, threads, {}));
   times.evaluate = stopwatch.lap();
-  must(write_triangles(plan.net().topology(), cell.level, plan.holes(), out.triangles.data(), threads, {}));
+  must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.triangles.data(), threads, {}));
   times.indices = stopwatch.lap();
   return times;
 }

@@ -116,7 +116,7 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
   Buffer<float> limits = like(out), normals = like(out), u = like(out), v = like(out);
   const std::vector<float>& control = cell.workload->points;
   const auto evaluate_ours = [&](const Plan& plan, const Evaluated<float>& to) {
-    must(evaluate<float>(plan.net(), cell.level, control, 3, Smoothing::smooth, to, 1, {}));
+    must(evaluate<float>(plan.mesh(), cell.level, control, 3, Smoothing::smooth, to, 1, {}));
   };
   FarTiming far(cell.cage());
   Contest contest;
@@ -128,7 +128,7 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     const double without = stopwatch.lap();
     evaluate_ours(plan, {.values = out.points.data(), .limits = limits.data(), .normals = normals.data()});
     const double with = stopwatch.lap();
-    must(write_triangles(plan.net().topology(), cell.level, plan.holes(), out.triangles.data(), 1, {}));
+    must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.triangles.data(), 1, {}));
     return {{"limits", with - without}, {"total_limits", planned + with + stopwatch.lap()}};
   });
   contest.enter("Far", [&]() -> Laps {
@@ -168,8 +168,8 @@ double time_again(const Case& cell, const Pace& pace, Results& results) {
     });
   };
   enter("ours", [&] {
-    must(evaluate<float>(plan.net(), cell.level, control, 3, Smoothing::smooth, {.values = out.points.data()},
-                         1, {}));
+    must(evaluate<float>(plan.mesh(), cell.level, control, 3, Smoothing::smooth,
+                         {.values = out.points.data()}, 1, {}));
   });
   enter("Far", [&] { far.update_stencils(control.data(), out.points.data()); });
   enter("base", [&] { far.evaluate_stencils(control.data(), out.points.data()); });

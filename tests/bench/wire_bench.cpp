@@ -106,7 +106,7 @@ std::pair<Count, Count> numbers_in(const AnyAnswer& answer) {
   return std::visit(
       [](const auto& typed) {
         const auto& mesh = typed.meshes[0];
-        Count reals = mesh.points.size() + mesh.normals.size(), indices = mesh.triangles.size();
+        Count reals = mesh.points.size() + mesh.normals.size(), indices = mesh.faces.size();
         for (const auto& primvar : mesh.primvars)
           reals += primvar.values.size(), indices += primvar.indices.size();
         return std::pair{reals, reals + indices};

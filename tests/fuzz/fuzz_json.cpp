@@ -55,8 +55,7 @@ void require_same_points(const nlohmann::json& document, const proto::RefineRequ
 void refine_and_encode(const proto::RefineRequest& request, const proto::Limits& limits) {
   for (ControlMesh other : request.meshes)
     for (const std::string_view scheme : kSchemeNames) {
-      if (scheme == (other.subdivision_scheme.empty() ? kSchemeNames.front() : other.subdivision_scheme))
-        continue;
+      if (scheme == other.subdivision_scheme) continue;
       other.subdivision_scheme = scheme;
       (void)refine<double>(other, proto::mesh_options(request), Budget{});
     }

@@ -97,7 +97,7 @@ TEST(read, whole_numbers_may_be_written_as_reals) {
 
 TEST(read, defaults_are_openusds) {
   const ControlMesh mesh = first_mesh(kTriangle);
-  const auto scheme = scheme_of_mesh(mesh.subdivision_scheme);
+  const auto scheme = scheme_of_mesh(mesh.subdivision_scheme, {3, 3});
   ASSERT_TRUE(scheme.has_value());
   EXPECT_TRUE(std::holds_alternative<Loop>(*scheme));
   EXPECT_EQ(mesh.interpolate_boundary, BoundaryInterpolation::edge_and_corner);

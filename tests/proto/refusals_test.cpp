@@ -125,17 +125,23 @@ INSTANTIATE_TEST_SUITE_P(
             "counts_that_wrap",
             R"({"points":[0,0,0],"faceVertexIndices":[0,0,0],"faceVertexCounts":[4294967294,4294967294,11]})",
             "wrong_length /faceVertexCounts"},
-        Case{"quad",
-             R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[0,1,2,3],"faceVertexCounts":[4]})",
-             "not_a_triangle /faceVertexCounts/0"},
-        Case{"nested_quad", R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[[0,1,2],[0,1,2,3]]})",
+        Case{
+            "quad",
+            R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[0,1,2,3],"faceVertexCounts":[4],"subdivisionScheme":"loop"})",
+            "unsupported /subdivisionScheme"},
+        Case{
+            "nested_quad",
+            R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[[0,1,2],[0,1,2,3]],"options":{"subdivisionScheme":"loop"}})",
+            "unsupported /subdivisionScheme"},
+        Case{"two_sided_polygon",
+             R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[[0,1,2,3],[0,1]]})",
              "not_a_triangle /faceVertexIndices/1"},
         Case{"two_sided_face",
              R"({"points":[0,0,0],"faceVertexIndices":[[0,0]],"options":{"triangulate":true}})",
              "not_a_triangle /faceVertexIndices/0"},
         Case{"nothing_but_degenerate_faces", R"({"points":[0,0,0],"faceVertexIndices":[0,0,0]})",
              "not_a_triangle /faceVertexIndices"},
-        Case{"scheme", with(R"("subdivisionScheme":"catmullClark")"), "bad_enum /subdivisionScheme"},
+        Case{"scheme", with(R"("subdivisionScheme":"catmullclark")"), "bad_enum /subdivisionScheme"},
         Case{"boundary", with(R"("interpolateBoundary":"edgesOnly")"), "bad_enum /interpolateBoundary"},
         Case{"boundary_number", with(R"("interpolateBoundary":1)"), "wrong_type /interpolateBoundary"},
         Case{"seams", with(R"("faceVaryingLinearInterpolation":"corners")"),
@@ -352,9 +358,11 @@ TEST(refusal_messages, name_the_near_member) {
   EXPECT_THAT(message(R"({"point":[]})"), testing::HasSubstr("did you mean \"points\"?"));
 }
 
-TEST(refusal_messages, suggest_triangulate) {
-  EXPECT_THAT(message(R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[[0,1,2,3]]})"),
-              testing::HasSubstr("triangulate"));
+TEST(refusal_messages, suggest_another_scheme_or_triangulate) {
+  const std::string text = message(
+      R"({"points":[0,0,0,1,0,0,1,1,0,0,1,0],"faceVertexIndices":[[0,1,2,3]],"subdivisionScheme":"loop"})");
+  EXPECT_THAT(text, testing::HasSubstr("catmullClark"));
+  EXPECT_THAT(text, testing::HasSubstr("triangulate"));
 }
 
 TEST(refusal_messages, tell_a_gltf_sent_as_json) {

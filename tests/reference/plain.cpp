@@ -36,7 +36,7 @@ Level first_level(const Topology<Triangles>& topology, Sharpness sharpness, Crea
   return first_level(polygons_of(topology), std::move(sharpness), method);
 }
 
-Level first_level(const Channel& channel, const Level& mesh) {
+Level first_level(const Channel<Triangles>& channel, const Level& mesh) {
   return first_level(polygons_of(*channel.topology), channel.sharpness, channel.linear,
                      channel.linear_borders, mesh);
 }

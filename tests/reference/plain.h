@@ -12,7 +12,7 @@ namespace subdivd::plain {
 
 // Level 0 of a mesh, and of a channel of it.
 Level first_level(const Topology<Triangles>& topology, Sharpness sharpness, CreaseMethod method);
-Level first_level(const Channel& channel, const Level& mesh);
+Level first_level(const Channel<Triangles>& channel, const Level& mesh);
 
 // The faces of a level of triangles as a topology, numbers and all.
 Topology<Triangles> topology_of(const Adjacency& faces);

@@ -17,7 +17,7 @@ struct Control {
   Topology<Triangles> topology;
   Sharpness sharpness;
   std::vector<unsigned char> holes;
-  std::vector<Channel> channels;
+  std::vector<Channel<Triangles>> channels;
 };
 
 Control make_control(const ControlMesh& mesh, CreaseMethod method) {
@@ -156,7 +156,7 @@ class Refinement {
   std::vector<Index> numbers_;  // of the last level's vertices, by the closed form
 };
 
-Buffer<Index> triangles_of(const Numbering& numbering, std::span<const unsigned char> holes) {
+Buffer<Index> triangles_of(const Numbering<Triangles>& numbering, std::span<const unsigned char> holes) {
   Buffer<Index> indices;
   const Count n = numbering.segment_count();
   indices.reserve(3 * n * n * static_cast<Count>(std::ranges::count(holes, 0)));
@@ -170,7 +170,7 @@ Buffer<Index> triangles_of(const Numbering& numbering, std::span<const unsigned 
   return indices;
 }
 
-Buffer<Provenance> provenance_of(const Numbering& numbering, Index face_count) {
+Buffer<Provenance> provenance_of(const Numbering<Triangles>& numbering, Index face_count) {
   Buffer<Provenance> provenance(numbering.vertex_count());
   const Count n = numbering.segment_count();
   for (Index f = face_count; f-- > 0;)  // backwards: the lowest-numbered face wins
@@ -205,13 +205,13 @@ class Job {
     const Numbering numbering(control_.topology, options_.level);
     out_.name = mesh_.name;
     out_.level = options_.level;
-    out_.triangle_count = static_cast<Count>(std::ranges::count(control_.holes, 0)) << (2 * options_.level);
-    out_.triangles = triangles_of(numbering, control_.holes);
+    out_.face_count = static_cast<Count>(std::ranges::count(control_.holes, 0)) << (2 * options_.level);
+    out_.faces = triangles_of(numbering, control_.holes);
     out_.provenance = provenance_of(numbering, control_.topology.face_count());
-    out_.triangle_faces.reserve(out_.triangles.size() / 3);
+    out_.base_faces.reserve(out_.faces.size() / 3);
     for (Index f = 0; f < control_.holes.size(); ++f)
       if (control_.holes[f] == 0)
-        out_.triangle_faces.insert(out_.triangle_faces.end(), Count{1} << (2 * options_.level), f);
+        out_.base_faces.insert(out_.base_faces.end(), Count{1} << (2 * options_.level), f);
     for (const Primvar& primvar : mesh_.primvars)
       out_.primvars.push_back({primvar.name, primvar.interpolation, primvar.element_size, {}, {}, {}});
     return {};
@@ -234,7 +234,7 @@ class Job {
     std::size_t channel = 0;
     for (std::size_t k = 0; k < mesh_.primvars.size(); ++k) {
       if (mesh_.primvars[k].interpolation != Interpolation::face_varying) continue;
-      const Channel& own = control_.channels[channel++];
+      const Channel<Triangles>& own = control_.channels[channel++];
       const Primvar& primvar = mesh_.primvars[k];
       RefinedPrimvar<Real>& out = out_.primvars[k];
       channels_.push_back(
@@ -304,7 +304,7 @@ class Job {
         assign(out_.primvars[k].values, resolved_values<Real>(primvar));
       if (primvar.interpolation == Interpolation::uniform)
         assign(out_.primvars[k].values,
-               gathered<Real>(resolved_values<Real>(primvar), primvar.element_size, out_.triangle_faces));
+               gathered<Real>(resolved_values<Real>(primvar), primvar.element_size, out_.base_faces));
     }
     return {};
   }
@@ -324,11 +324,9 @@ class Job {
 
 template <class Real>
 Result<RefinedMesh<Real>> refine(const ControlMesh& mesh, const RefineOptions& options) {
-  return std::visit(
-      [&](const auto& scheme) {
-        return Job<std::remove_cvref_t<decltype(scheme)>, Real>(scheme, mesh, options, Budget{}).run();
-      },
-      *scheme_of_mesh(mesh.subdivision_scheme, options.schemes));
+  return Job<Loop, Real>(std::get<Loop>(*scheme_of_mesh(mesh.subdivision_scheme, {3, 3}, options.schemes)),
+                         mesh, options, Budget{})
+      .run();
 }
 
 template Result<RefinedMesh<float>> refine<float>(const ControlMesh&, const RefineOptions&);

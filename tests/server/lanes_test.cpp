@@ -101,6 +101,26 @@ TEST(Lanes, ends_bodies_that_drip_for_those_who_wait) {
   served = true;
   drip.join();
 }
+// Who waits asks every 100 ms, and the thread of a transfer that has ended for him may take longer to come free.
+TEST(ThreadDemand, ends_no_second_transfer_while_the_first_ones_thread_is_on_its_way) {
+  ThreadDemand demand;
+  EXPECT_FALSE(demand.claim());
+  demand.ask(1);
+  EXPECT_TRUE(demand.claim());
+  demand.ask(1);
+  EXPECT_FALSE(demand.claim());
+  demand.ask(3);
+  EXPECT_TRUE(demand.claim());
+  EXPECT_TRUE(demand.claim());
+  EXPECT_FALSE(demand.claim());
+  for (int thread = 0; thread < 3; ++thread) demand.came_free();
+  demand.ask(1);
+  EXPECT_TRUE(demand.claim());
+  demand.came_free();
+  demand.came_free();  // one that no transfer ended for
+  demand.ask(1);
+  EXPECT_TRUE(demand.claim());
+}
 TEST(Lanes, ends_slow_readers_for_those_who_wait) {
   RunningTransport server(two_threads());
   const Clients busy = send_from_two(server.port, get("/large"), 4096);

@@ -45,17 +45,8 @@ std::vector<std::array<float, 2>> inherited_halves(const Level& channel, const L
 
 // The next level but for its halves.
 Level without_halves(const Level& level, Split split, const Pace& pace) {
-  const Adjacency& parent = level.faces;
-  Level next{split_faces(split, parent, pace), {}, {}, level.linear, level.linear_borders};
-  pace.fill(next.sharpness.edges, next.faces.edge_count(), 0.0f);  // edges inside faces are smooth
-  pace.fill(next.sharpness.vertices, next.faces.vertex_count(), 0.0f);
-  pace.for_each(parent.edge_count(), [&](Index e) {
-    for (const Index half : {0u, 1u}) next.sharpness.edges[2 * e + half] = level.halves[e][half];
-    if (level.linear_borders && parent.edge_half_edges(e).size() == 1)
-      next.sharpness.vertices[parent.vertex_count() + e] = kInfiniteSharpness;
-  });
-  pace.for_each(parent.vertex_count(),
-                [&](Index v) { next.sharpness.vertices[v] = decay(level.sharpness.vertices[v]); });
+  Level next{split_faces(split, level.faces, pace), {}, {}, level.linear, level.linear_borders};
+  next.sharpness = next_sharpness(level, next.faces.vertex_count(), next.faces.edge_count(), pace);
   return next;
 }
 
@@ -72,6 +63,21 @@ Level first_level(Adjacency faces, Sharpness sharpness, bool linear, bool linear
   Level level{std::move(faces), std::move(sharpness), {}, linear, linear_borders};
   level.halves = inherited_halves(level, mesh, pace);
   return level;
+}
+
+Sharpness next_sharpness(const Level& level, Index vertices, Index edges, const Pace& pace) {
+  const Adjacency& parent = level.faces;
+  Sharpness next;
+  pace.fill(next.edges, edges, 0.0f);
+  pace.fill(next.vertices, vertices, 0.0f);
+  pace.for_each(parent.edge_count(), [&](Index e) {
+    for (const Index half : {0u, 1u}) next.edges[2 * e + half] = level.halves[e][half];
+    if (level.linear_borders && parent.edge_half_edges(e).size() == 1)
+      next.vertices[parent.vertex_count() + e] = kInfiniteSharpness;
+  });
+  pace.for_each(parent.vertex_count(),
+                [&](Index v) { next.vertices[v] = decay(level.sharpness.vertices[v]); });
+  return next;
 }
 
 Level next_level(const Level& level, Split split, CreaseMethod method, const Pace& pace) {

@@ -33,6 +33,10 @@ Level first_level(Adjacency faces, Sharpness sharpness, CreaseMethod method, con
 Level first_level(Adjacency faces, Sharpness sharpness, bool linear, bool linear_borders, const Level& mesh,
                   const Pace& pace = {});
 
+// Sharpness of that step's edges and vertices, as many as are said: the halves of edges and the points on them come
+// first, what lies inside faces is smooth.
+Sharpness next_sharpness(const Level& level, Index vertices, Index edges, const Pace& pace = {});
+
 // One step; split.h says how its points, edges and faces are numbered.
 Level next_level(const Level& level, Split split, CreaseMethod method, const Pace& pace = {});
 Level next_level(const Level& channel, Split split, const Level& next_mesh, const Pace& pace = {});

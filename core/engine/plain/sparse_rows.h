@@ -28,5 +28,8 @@ struct SparseRows {
 template <class Real>
 std::vector<Real> apply(const SparseRows& rows, std::span<const Real> values, Index width,
                         const Pace& pace = {});
+// Into `out`, which has room for them.
+template <class Real>
+void apply(const SparseRows& rows, std::span<const Real> values, Index width, Real* out, const Pace& pace);
 
 }  // namespace subdivd::plain

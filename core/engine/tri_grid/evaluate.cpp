@@ -1,118 +1,41 @@
 #include "core/engine/tri_grid/evaluate.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <variant>
-#include <vector>
+#include <span>
+#include <utility>
 
-#include "core/base/buffer.h"
-#include "core/base/pace.h"
-#include "core/base/parallel.h"
-#include "core/engine/tri_grid/base_edges.h"
-#include "core/engine/tri_grid/base_vertices.h"
+#include "core/engine/grid/evaluation.h"
 #include "core/engine/tri_grid/kernels/tri_step.h"
-#include "core/lattice/numbering.h"
 
 namespace subdivd {
 namespace {
 
-using kernels::FaceRow;
-using kernels::TriKernels;
-using kernels::TriLimit;
-using kernels::TriMasks;
-using kernels::TriStep;
+// See GridEvaluation.
+struct TriGrid {
+  using Faces = Triangles;
+  template <class Real>
+  using Step = kernels::TriStep<Real>;
+  template <class Real>
+  using Limit = kernels::TriLimit<Real>;
+  static constexpr Split kSplit = Split::triangles;
 
-constexpr Count kBlock = 1 << 14;         // points between two polls of the budget, about
-constexpr Count kWorthSharing = 1 << 16;  // scalars of a level: some 50 microseconds
-constexpr Count kLargeFace = 1 << 18;     // points inside a face that is taken in several pieces
-
-static_assert(static_cast<int>(EdgeRule::smooth) == 0 && static_cast<int>(EdgeRule::linear) == 2,
-              "the kernels know the rules by number");
-static_assert(static_cast<int>(VertexRule::smooth) == 0 && static_cast<int>(VertexRule::dart) == 1);
-static_assert(kernels::kListedValence == Net::kListedValence);
-
-// Cuts 0..face_count * n^2 triangles into rows of faces. Any monotone rule will do: what is written does not
-// depend on the cuts.
-FaceRow face_row(Count triangle, Count n, bool whole_faces) {
-  FaceRow at{static_cast<Index>(triangle / (n * n)), 0};
-  const Count rest = triangle % (n * n);
-  if (!whole_faces) at.row = n - static_cast<Count>(std::sqrt(static_cast<double>(n * n - rest)));
-  return at;
-}
-
-template <class Scheme, class Real>
-class Evaluation {
-  static_assert(Scheme::split == Split::triangles && Scheme::face_sizes == FaceSizes{3, 3} &&
-                    Scheme::regular_valence == 6,
-                "grids of triangles serve no scheme that takes other faces, or makes others of them");
-
- public:
-  Evaluation(const Net& net, const Scheme& scheme, Index level, Buffer<Real> control, Index width,
-             Smoothing smoothing, const Evaluated<Real>& out, const Pace& pace)
-      : net_(net),
-        scheme_(scheme),
-        level_(level),
-        control_(std::move(control)),
-        width_(width),
-        linear_(smoothing == Smoothing::linear),
-        out_(out),
-        kernels_(kernels::tri_kernels<Real>()),
-        vertices_(net, scheme, width, linear_ ? Smoothing::linear : net.smoothing()),
-        edges_(net, scheme, width) {
-    linear_ |= net.smoothing() == Smoothing::linear;
-    if (linear_)
-      pace.fill(linear_rules_, net.topology().edge_count(), static_cast<unsigned char>(EdgeRule::linear));
-    else if (out.wants_limits())
-      vertices_.prepare_limits(level, pace);
-    vertex_masks_ = vertices_.smooth_masks();
-    if (out.wants_limits()) limit_masks_ = vertices_.limit_masks();
-    if (out.wants_frames()) tangent_masks_ = vertices_.tangent_masks();
-    // Two levels below the last take turns; the last goes straight to the caller.
-    for (Index k = 0; k < 2; ++k)
-      if (level > k + 1) set_size(scratch_[k], net.value_count(level - 1 - k) * width);
-    set_size(control_, control_.size());
-    if (out.values == nullptr && level > 0) own_values_.resize(net.value_count(level) * width);
+  template <class Real>
+  static const kernels::TriKernels<Real>& kernels() {
+    return kernels::tri_kernels<Real>();
   }
+  static Count row_scratch(Count n) { return kernels::row_scratch(n); }
 
-  Result<void> run(Index threads, const Budget& budget) {
-    threads = is_small(level_) ? 1 : std::max<Index>(threads, 1);
-    deferred_.resize(threads);
-    return Team::run(threads, budget, [&](Worker& worker) { work(worker); });
-  }
-
- private:
-  // Steps read a little past the end of what they refine.
-  static constexpr auto kSpare = static_cast<std::ptrdiff_t>(kSpareControl);
-  static void set_size(Buffer<Real>& buffer, Count size) {
-    buffer.resize(size + kSpare);
-    std::fill(buffer.end() - kSpare, buffer.end(), Real(0));
-  }
-
-  // The array of a level.
-  const Real* values_at(Index level) const {
-    return level == 0 ? control_.data() : const_cast<Evaluation*>(this)->target_at(level);
-  }
-  Real* target_at(Index level) {
-    if (level == level_) return out_.values != nullptr ? out_.values : own_values_.data();
-    return scratch_[(level_ - 1 - level) % 2].data();
-  }
-
-  TriMasks<Real> masks() const {
-    if (linear_)
-      return {.vertex_self = 1,
-              .vertex_each = 0,
-              .edge_end = Real(0.5),
-              .edge_opposite = 0,
-              .crease_self = 1,
-              .crease_end = 0,
-              .crease_edge = Real(0.5)};
+  template <class Real, class Scheme>
+  static kernels::TriMasks<Real> masks(const Scheme& scheme, CreaseMethod method) {
+    static_assert(Scheme::face_sizes == FaceSizes{3, 3} && Scheme::regular_valence == 6,
+                  "grids of triangles serve no scheme that takes other faces");
     const std::array<float, 2> sharp{kInfiniteSharpness, kInfiniteSharpness};
-    const VertexMask smooth = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, {}, {}});
-    const VertexMask crease = scheme_.vertex_mask({1, net_.crease_method(), 0, 0, sharp, sharp});
-    const EdgeMask edge = scheme_.edge_mask({2, 0, {0, 0}});
+    const VertexMask smooth = scheme.vertex_mask({6, method, 0, 0, {}, {}});
+    const VertexMask crease = scheme.vertex_mask({1, method, 0, 0, sharp, sharp});
+    const EdgeMask edge = scheme.edge_mask({2, 0, {0, 0}});
     const EdgeMask sharp_edge =
-        scheme_.edge_mask({2, kInfiniteSharpness, {kInfiniteSharpness, kInfiniteSharpness}});
+        scheme.edge_mask({2, kInfiniteSharpness, {kInfiniteSharpness, kInfiniteSharpness}});
     return {.vertex_self = static_cast<Real>(smooth.self),
             .vertex_each = static_cast<Real>(smooth.each),
             .edge_end = static_cast<Real>(edge.end),
@@ -121,316 +44,78 @@ class Evaluation {
             .crease_end = static_cast<Real>(crease.crease),
             .crease_edge = static_cast<Real>(sharp_edge.end)};
   }
+  template <class Real>
+  static kernels::TriMasks<Real> linear_masks() {
+    return {.vertex_self = 1,
+            .vertex_each = 0,
+            .edge_end = Real(0.5),
+            .edge_opposite = 0,
+            .crease_self = 1,
+            .crease_end = 0,
+            .crease_edge = Real(0.5)};
+  }
 
-  TriStep<Real> step_from(Index level, const Real* from, Real* to, Real* rows) const {
-    const Topology<Triangles>& topology = net_.topology();
-    const auto* rules =
-        linear_ ? linear_rules_.data() : reinterpret_cast<const unsigned char*>(net_.edge_rules().data());
+  template <class Real>
+  static Step<Real> step(const Topology<Triangles>& topology) {
     const auto pairs = [](std::span<const std::array<Index, 2>> all) {
       return all.empty() ? nullptr : all[0].data();
     };
-    return {.triangles = topology.corner_vertices().data(),
-            .half_edge_edges = topology.half_edge_edges().data(),
-            .edge_vertices = pairs(topology.edge_vertices()),
-            .edge_sides = pairs(topology.edge_sides()),
-            .edge_rules = rules,
-            .vertex_edges = topology.all_vertex_edges().data(),
-            .vertex_edge_offsets = topology.vertex_edge_offsets().data(),
-            .vertex_rules = reinterpret_cast<const unsigned char*>(net_.vertex_rules().data()),
-            .vertex_masks = vertex_masks_.data(),
-            .vertex_count = topology.vertex_count(),
-            .edge_count = topology.edge_count(),
-            .face_count = topology.face_count(),
-            .n = segments(level),
-            .width = width_,
-            .from = from,
-            .to = to,
-            .masks = masks(),
-            .rows = rows};
+    Step<Real> step{};
+    step.triangles = topology.corner_vertices().data();
+    step.half_edge_edges = topology.half_edge_edges().data();
+    step.edge_vertices = pairs(topology.edge_vertices());
+    step.edge_sides = pairs(topology.edge_sides());
+    step.vertex_edges = topology.all_vertex_edges().data();
+    step.vertex_edge_offsets = topology.vertex_edge_offsets().data();
+    step.vertex_count = topology.vertex_count();
+    step.edge_count = topology.edge_count();
+    step.face_count = topology.face_count();
+    return step;
   }
 
-  // Calls f(kernel index, first component) for the pieces of at most four components.
-  template <class F>
-  void for_components(F&& f) const {
-    for (Index c = 0; c < width_; c += 4) f(std::min<Index>(width_ - c, 4) - 1, c);
+  template <class Real, class Scheme>
+  static void set_limit_masks(kernels::TriLimit<Real>& limit, const Scheme& scheme) {
+    const VertexMask mask = scheme.smooth_limit_mask(Scheme::regular_valence);
+    limit.self = static_cast<Real>(mask.self);
+    limit.each = static_cast<Real>(mask.each);
+  }
+  template <class Real>
+  static void set_linear_limit_masks(kernels::TriLimit<Real>& limit) {
+    limit.self = 1;
+    limit.each = 0;
   }
 
-  void work(Worker& worker) {
-    std::vector<Real> rows(kernels::row_scratch(segments(level_)), Real(0));
-    // The first worker goes through the small levels alone: sharing them would take longer.
-    Index level = 0;
-    Worker alone = worker.alone();
-    for (; worker.count() > 1 && is_small(level + 1); ++level)
-      if (worker.index() == 0) refine_level(alone, level, rows);
-    if (level > 0 && !worker.meet()) return;
-    for (; level < level_; ++level) {
-      if (!refine_level(worker, level, rows) || !worker.meet()) return;
-    }
-    if (level_ == 0 && out_.values != nullptr && !copy_control(worker)) return;
-    if (!out_.wants_limits()) return;
-    for (const auto& [begin, end] : deferred_[worker.index()]) {
-      if (!worker.go_on(8 * kBlock)) return;
-      limit_faces(worker, begin, end, rows);
-    }
-    limit_vertices(worker, rows);
-    limit_edges(worker, rows);
+  static kernels::FaceRow face_row(Count triangle, Count n, bool whole_faces) {
+    kernels::FaceRow at{static_cast<Index>(triangle / (n * n)), 0};
+    const Count rest = triangle % (n * n);
+    if (!whole_faces) at.row = n - static_cast<Count>(std::sqrt(static_cast<double>(n * n - rest)));
+    return at;
   }
-
-  // Level 0 is what was given. False when the team is to stop.
-  bool copy_control(Worker& worker) const {
-    const Range share = worker.share(control_.size() - kSpareControl);
-    for (Count begin = share.begin; begin < share.end; begin += kBlock) {
-      const Count count = std::min(kBlock, share.end - begin);
-      if (!worker.go_on(count)) return false;
-      std::copy_n(control_.begin() + static_cast<std::ptrdiff_t>(begin), count, out_.values + begin);
-    }
-    return true;
-  }
-
-  // False when the team is to stop.
-  bool refine_level(Worker& worker, Index level, std::vector<Real>& rows) {
-    const TriStep<Real> step = step_from(level, values_at(level), target_at(level + 1), rows.data());
-    refine_vertices(worker, level, step);
-    refine_edges(worker, level, step);
-    const bool last = level + 1 == level_ && out_.wants_limits();
-    // Limits inside a face need its border at the last level.
-    if (last && !worker.meet()) return false;
-    refine_faces(worker, step, last ? &rows : nullptr);
-    return true;
-  }
-
-  bool is_small(Index level) const { return net_.value_count(level) * width_ < kWorthSharing; }
-
-  // Steps of a point: as many as its value has quarters of a vector.
-  Count steps_per_point() const { return (width_ + 3) / 4; }
-
-  // Calls f(begin, end) for blocks of the worker's share of `total` items of `points` points each.
-  template <class F>
-  void in_blocks(Worker& worker, Count total, Count points, F&& f) const {
-    points *= steps_per_point();
-    const Range share = worker.share(total);
-    const Count block = std::max<Count>(1, kBlock / std::max<Count>(points, 1));
-    for (Count begin = share.begin; begin < share.end; begin += block) {
-      const Count end = std::min(begin + block, share.end);
-      if (!worker.go_on((end - begin) * points)) return;
-      f(static_cast<Index>(begin), static_cast<Index>(end));
-    }
-  }
-
-  void refine_vertices(Worker& worker, Index level, const TriStep<Real>& step) const {
-    in_blocks(worker, net_.topology().vertex_count(), 4, [&](Index begin, Index end) {
-      if (linear_) {
-        std::copy(step.from + Count{begin} * width_, step.from + Count{end} * width_,
-                  step.to + Count{begin} * width_);
-        return;
-      }
-      for_components([&](Index kernel, Index component) {
-        TriStep<Real> part = step;
-        part.from += component;
-        part.to += component;
-        kernels_.refine_vertices[kernel](part, begin, end);
-      });
-      vertices_.refine(level, step.from, step.to, begin, end, Pace(worker));
-    });
-  }
-
-  void refine_edges(Worker& worker, Index level, const TriStep<Real>& step) const {
-    in_blocks(worker, net_.topology().edge_count(), 4 * step.n, [&](Index begin, Index end) {
-      for_components([&](Index kernel, Index component) {
-        TriStep<Real> part = step;
-        part.from += component;
-        part.to += component;
-        kernels_.refine_edges[kernel](part, begin, end);
-      });
-      if (!linear_) edges_.refine_semi_sharp(level, step.from, step.to, begin, end);
-    });
-  }
-
-  // `limit_rows`: scratch for limits, which are written as soon as a face is complete; null: none.
-  void refine_faces(Worker& worker, const TriStep<Real>& step, std::vector<Real>* limit_rows) {
-    if (step.n < 2) return;  // a face of two segments an edge has nothing inside
-    const Count n = step.n, faces = net_.topology().face_count(), points = 2 * n * n;
-    const bool whole =
-        points * steps_per_point() <= kLargeFace && (n < 64 || faces >= Count{8} * worker.count());
-    const Range share = worker.share(faces * n * n);
-    const FaceRow last = face_row(share.end, n, whole);
-    const Count block = std::max<Count>(whole ? n * n : 1, kBlock / steps_per_point());
-    FaceRow begin = face_row(share.begin, n, whole);
-    for (Count at = share.begin; at < share.end; at += block) {
-      const FaceRow end = at + block >= share.end ? last : face_row(at + block, n, whole);
-      if (!worker.go_on(4 * block * steps_per_point())) return;
-      for_components([&](Index kernel, Index component) {
-        TriStep<Real> part = step;
-        part.from += component;
-        part.to += component;
-        kernels_.refine_faces[kernel](part, begin, end);
-      });
-      if (limit_rows != nullptr) {
-        if (whole)
-          limit_faces(worker, begin, end, *limit_rows);
-        else
-          deferred_[worker.index()].push_back({begin, end});
-      }
-      begin = end;
-    }
-  }
-
-  struct Context {
-    const Evaluation& evaluation;
-    Worker& worker;
-  };
-
-  TriLimit<Real> limit_of(const Context& context, std::vector<Real>& rows) const {
-    TriLimit<Real> limit{.level = step_from(level_, values_at(level_), out_.limits, rows.data()),
-                         .self = 1,
-                         .each = 0,
-                         .vertex_masks = limit_masks_.data(),
-                         .vertex_tangents = tangent_masks_.data(),
-                         .tangents_u = out_.tangents_u,
-                         .tangents_v = out_.tangents_v,
-                         .normals = out_.normals,
-                         .robust_frame = &Evaluation::robust_frame,
-                         .context = &context};
-    if (!linear_) {
-      const VertexMask mask = scheme_.smooth_limit_mask(Scheme::regular_valence);
-      limit.self = static_cast<Real>(mask.self);
-      limit.each = static_cast<Real>(mask.each);
-    }
-    return limit;
-  }
-
-  // See TriLimit.
-  static void robust_frame(const void* context, Count vertex, Real* u, Real* v, Real* normal) {
-    const auto& [self, worker] = *static_cast<const Context*>(context);
-    // A thousand times as slow as the short way: a mesh that is all degenerate needs a poll here. What is
-    // written when the team stops is nobody's.
-    if (!worker.go_on(256)) return;
-    const Real* values = self.values_at(self.level_);
-    const auto number = static_cast<Index>(vertex);
-    const Frame<Real> frame = number < self.net_.topology().vertex_count()
-                                  ? self.vertices_.frame(self.level_, values, number, Pace(worker))
-                                  : self.regular_frame(values, number);
-    std::copy_n(frame.u, 3, u);
-    std::copy_n(frame.v, 3, v);
-    std::copy_n(frame.normal, 3, normal);
-  }
-  Frame<Real> regular_frame(const Real* values, Index vertex) const {
-    Ring<Real> ring;
-    const auto append = [&](std::vector<Real>& to, Index v) {
-      to.insert(to.end(), values + Count{3} * v, values + Count{3} * v + 3);
-    };
-    append(ring.center, vertex);
-    for (const Index neighbour : Numbering(net_.topology(), level_).regular_ring(vertex))
-      append(ring.neighbors, neighbour);
-    ring.edge_sharpness.assign(6, 0.0f);
-    ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
-    ring.sector_edges = {0, 1, 2, 3, 4, 5};
-    ring.sectors = {{0, 6, true}};
-    return LimitRing<Scheme, Real>(scheme_, CreaseMethod::uniform, std::move(ring)).frames()[0];
-  }
-
-  template <class F>
-  void limit_components(Worker& worker, std::vector<Real>& rows, F&& f) const {
-    const Context context{*this, worker};
-    const TriLimit<Real> limit = limit_of(context, rows);
-    for_components([&](Index kernel, Index component) {
-      TriLimit<Real> part = limit;
-      part.level.from += component;
-      if (part.level.to != nullptr) part.level.to += component;
-      f(kernel, part);
-    });
-  }
-
-  // `begin` and `end` count rows of the level below, of which every one makes two here.
-  void limit_faces(Worker& worker, FaceRow begin, FaceRow end, std::vector<Real>& rows) const {
-    begin.row *= 2;
-    end.row *= 2;
-    limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
-      kernels_.limit_faces[kernel](part, begin, end);
-    });
-  }
-
-  void limit_vertices(Worker& worker, std::vector<Real>& rows) const {
-    const Real* values = values_at(level_);
-    in_blocks(worker, net_.topology().vertex_count(), 16, [&](Index begin, Index end) {
-      if (linear_) {
-        if (out_.limits != nullptr)
-          std::copy(values + Count{begin} * width_, values + Count{end} * width_,
-                    out_.limits + Count{begin} * width_);
-        return;
-      }
-      limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
-        kernels_.limit_vertices[kernel](part, begin, end);
-      });
-      vertices_.limit(level_, values, out_, begin, end, Pace(worker));
-    });
-  }
-
-  void limit_edges(Worker& worker, std::vector<Real>& rows) const {
-    if (level_ == 0) return;
-    in_blocks(worker, net_.topology().edge_count(), 8 * segments(level_), [&](Index begin, Index end) {
-      limit_components(worker, rows, [&](Index kernel, const TriLimit<Real>& part) {
-        kernels_.limit_edges[kernel](part, begin, end);
-      });
-      if (!linear_) {
-        edges_.limit(level_, values_at(level_), out_, begin, end, Pace(worker));
-      } else if (out_.limits != nullptr) {
-        const Count points = segments(level_) - 1, first = net_.topology().vertex_count() + begin * points;
-        std::copy_n(values_at(level_) + first * width_, (end - begin) * points * width_,
-                    out_.limits + first * width_);
-      }
-    });
-  }
-
-  const Net& net_;
-  Scheme scheme_;
-  Index level_;
-  Buffer<Real> control_;
-  Index width_;
-  bool linear_;
-  Evaluated<Real> out_;
-  const TriKernels<Real>& kernels_;
-  BaseVertices<Scheme, Real> vertices_;
-  BaseEdges<Scheme, Real> edges_;
-  std::vector<unsigned char> linear_rules_;
-  std::vector<Real> vertex_masks_, limit_masks_, tangent_masks_;
-  std::array<Buffer<Real>, 2> scratch_;
-  Buffer<Real> own_values_;
-  std::vector<std::vector<std::pair<FaceRow, FaceRow>>> deferred_;  // per worker
+  static bool has_inside(Count n) { return n >= 3; }
 };
 
 }  // namespace
 
 template <class Real>
-Result<void> evaluate(const Net& net, Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
-                      const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  return std::visit(
-      [&](const auto& scheme) {
-        using Scheme = std::remove_cvref_t<decltype(scheme)>;
-        return stoppable(budget, [&](const Pace& pace) {
-          return Evaluation<Scheme, Real>(net, scheme, level, std::move(control), width, smoothing, out, pace)
-              .run(threads, budget);
-        });
-      },
-      net.scheme());
+Result<void> evaluate(const Net<Triangles>& net, Index level, Buffer<Real>&& control, Index width,
+                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
+  return evaluate_on_grid<TriGrid, Real>(net, level, std::move(control), width, smoothing, out, threads,
+                                         budget);
 }
 
 template <class Real>
-Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
+Result<void> evaluate(const Net<Triangles>& net, Index level, std::span<const Real> control, Index width,
                       Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  Buffer<Real> copy;
-  copy.reserve(control.size() + kSpareControl);
-  copy.assign(control.begin(), control.end());
-  return evaluate<Real>(net, level, std::move(copy), width, smoothing, out, threads, budget);
+  return evaluate<Real>(net, level, copy_of_control(control), width, smoothing, out, threads, budget);
 }
 
-template Result<void> evaluate(const Net&, Index, std::span<const float>, Index, Smoothing,
-                               const Evaluated<float>&, Index, const Budget&);
-template Result<void> evaluate(const Net&, Index, std::span<const double>, Index, Smoothing,
-                               const Evaluated<double>&, Index, const Budget&);
-template Result<void> evaluate(const Net&, Index, Buffer<float>&&, Index, Smoothing, const Evaluated<float>&,
-                               Index, const Budget&);
-template Result<void> evaluate(const Net&, Index, Buffer<double>&&, Index, Smoothing,
-                               const Evaluated<double>&, Index, const Budget&);
+#define SUBDIVD_INSTANTIATE(Real)                                                                       \
+  template Result<void> evaluate(const Net<Triangles>&, Index, std::span<const Real>, Index, Smoothing, \
+                                 const Evaluated<Real>&, Index, const Budget&);                         \
+  template Result<void> evaluate(const Net<Triangles>&, Index, Buffer<Real>&&, Index, Smoothing,        \
+                                 const Evaluated<Real>&, Index, const Budget&);
+SUBDIVD_INSTANTIATE(float)
+SUBDIVD_INSTANTIATE(double)
+#undef SUBDIVD_INSTANTIATE
 
 }  // namespace subdivd

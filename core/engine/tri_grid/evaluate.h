@@ -8,37 +8,22 @@
 #include "core/base/buffer.h"
 #include "core/base/index.h"
 #include "core/base/result.h"
+#include "core/engine/grid/evaluated.h"
 #include "core/engine/net.h"
 
 namespace subdivd {
-
-// Where an evaluation writes; what is null is not computed. Sizes: net.value_count(level) * width scalars.
-// Limits, tangents and normals belong to the surface that refining for ever would lead to, at the refined
-// vertices; tangents and normals are for width 3 only (which ones: core/limit). Tangents of a crease belong
-// to the side of its lowest-numbered face.
-template <class Real>
-struct Evaluated {
-  Real* values = nullptr;
-  Real* limits = nullptr;
-  Real *tangents_u = nullptr, *tangents_v = nullptr;
-  Real* normals = nullptr;  // unit; (0,0,0) where the surface has none
-
-  bool wants_frames() const { return tangents_u != nullptr || tangents_v != nullptr || normals != nullptr; }
-  bool wants_limits() const { return limits != nullptr || wants_frames(); }
-};
 
 // Refines values on a net to `level` (at most net.max_level()): `control` holds width scalars per vertex of
 // the net, in its order. What is written depends neither on `threads` (at least 1) nor on the processor.
 // Instantiated for float and double. Working memory: `control` and a third of `values`, and all of it more
 // when out.values is null.
 template <class Real>
-Result<void> evaluate(const Net& net, Index level, std::span<const Real> control, Index width,
+Result<void> evaluate(const Net<Triangles>& net, Index level, std::span<const Real> control, Index width,
                       Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget);
 
 // The same for an array that may be used up. It is copied if it has no room for kSpareControl more.
-inline constexpr Count kSpareControl = 4;
 template <class Real>
-Result<void> evaluate(const Net& net, Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
-                      const Evaluated<Real>& out, Index threads, const Budget& budget);
+Result<void> evaluate(const Net<Triangles>& net, Index level, Buffer<Real>&& control, Index width,
+                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget);
 
 }  // namespace subdivd

@@ -285,7 +285,7 @@ TEST(Spectrum, refuses_parameters_out_of_range_at_their_place) {
   EXPECT_EQ(four_point_spectrum(NAN, budget).error().code, ErrorCode::not_finite);
   EXPECT_EQ(four_point_spectrum(-1e-9, budget).error().code, ErrorCode::out_of_range);
   EXPECT_EQ(four_point_spectrum(0.0626, budget).error().code, ErrorCode::unsupported);
-  EXPECT_EQ(spectrum({.name = "catmullClark"}, budget).error().code, ErrorCode::bad_enum);
+  EXPECT_EQ(spectrum({.name = "catmullclark"}, budget).error().code, ErrorCode::bad_enum);
 }
 
 TEST(Spectrum, of_every_scheme_of_the_list_exists_at_the_ends_of_its_parameters) {

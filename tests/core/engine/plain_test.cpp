@@ -7,6 +7,7 @@
 
 #include "core/base/budget.h"
 #include "core/engine/plain/level.h"
+#include "core/engine/plain/split.h"
 #include "core/mesh/topology.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
@@ -25,13 +26,12 @@ Level base_level(const ControlMesh& mesh, CreaseMethod method = CreaseMethod::un
 
 TEST(PlainRows, sum_to_one_for_every_scheme) {
   for (const auto& [name, mesh] : shapes::all_shapes())
-    for_each_scheme(AllSchemes(), [&](const auto& scheme) {
+    for_each_scheme(AllSchemes(), [&]<class S>(const S& scheme) {
       SCOPED_TRACE(name);
       Level level = base_level(mesh);
-      for (int depth = 0; depth < 2;
-           ++depth, level = next_level(level, Split::triangles, CreaseMethod::uniform)) {
+      for (int depth = 0; depth < 2; ++depth, level = next_level(level, S::split, CreaseMethod::uniform)) {
         const SparseRows rows = rows_of(scheme, CreaseMethod::uniform, level, false);
-        ASSERT_EQ(rows.row_count(), level.faces.vertex_count() + level.faces.edge_count());
+        ASSERT_EQ(rows.row_count(), child_count(S::split, level.faces));
         for (Count r = 0; r < rows.row_count(); ++r) {
           double sum = 0;
           for (Count k = rows.offsets[r]; k < rows.offsets[r + 1]; ++k) sum += rows.weights[k];

@@ -59,7 +59,7 @@ TEST(Split, counts_are_those_of_refining_step_by_step) {
           refined_counts(base.vertex_count(), base.edge_count(), base.face_count(), level);
       EXPECT_EQ(counts.vertices, at.faces.vertex_count());
       EXPECT_EQ(counts.edges, at.faces.edge_count());
-      EXPECT_EQ(counts.triangles, at.faces.face_count());
+      EXPECT_EQ(counts.faces, at.faces.face_count());
     }
   }
 }
@@ -109,7 +109,7 @@ TEST(Numbering, a_regular_ring_goes_round_counter_clockwise) {
                             triangles.insert({{a, b, c}, {b, c, a}, {c, a, b}});
                           });
       for (Index v = topology.vertex_count(); v < numbering.vertex_count(); ++v) {
-        const auto ring = numbering.regular_ring(v);
+        const auto ring = numbering.regular_ring(v).edges;
         for (std::size_t k = 0; k < 6; ++k)
           ASSERT_TRUE(triangles.contains({v, ring[k], ring[(k + 1) % 6]})) << level << ' ' << v << ' ' << k;
       }

@@ -58,25 +58,25 @@ std::array<Index, 4> turned(std::array<Index, 4> quad) {
   return quad;
 }
 
-TEST(QuadNumbering, counts_are_those_of_refining_step_by_step) {
+TEST(Numbering, counts_are_those_of_refining_step_by_step) {
   for (const auto& [name, topology] : all_quads()) {
     plain::Adjacency at = plain_of(topology);
     for (Index level = 1; level <= 3; ++level) {
       at = plain::split_faces(Split::quads, at, {});
-      const QuadCounts counts =
+      const LevelCounts counts =
           refined_quad_counts(topology.vertex_count(), topology.edge_count(), topology.face_count(), level);
       EXPECT_EQ(counts.vertices, at.vertex_count()) << name;
       EXPECT_EQ(counts.edges, at.edge_count()) << name;
-      EXPECT_EQ(counts.quads, at.face_count()) << name;
+      EXPECT_EQ(counts.faces, at.face_count()) << name;
     }
   }
 }
 
-TEST(QuadNumbering, is_a_bijection_and_faces_agree_along_their_edges) {
+TEST(Numbering, is_a_bijection_and_faces_agree_along_their_edges) {
   for (const auto& [name, topology] : all_quads())
     for (const Index level : {0u, 1u, 2u, 3u}) {
       SCOPED_TRACE(name);
-      const QuadNumbering numbering(topology, level);
+      const Numbering numbering(topology, level);
       const Count n = numbering.segment_count();
       std::vector<std::set<std::pair<Index, Count>>> places(numbering.vertex_count());
       for (Index f = 0; f < topology.face_count(); ++f)
@@ -96,7 +96,7 @@ TEST(QuadNumbering, is_a_bijection_and_faces_agree_along_their_edges) {
     }
 }
 
-TEST(QuadNumbering, names_the_quads_that_refining_step_by_step_makes) {
+TEST(Numbering, names_the_quads_that_refining_step_by_step_makes) {
   for (const auto& [name, topology] : all_quads()) {
     SCOPED_TRACE(name);
     plain::Adjacency at = plain_of(topology);
@@ -117,7 +117,7 @@ TEST(QuadNumbering, names_the_quads_that_refining_step_by_step_makes) {
         }
       places = std::move(next);
       at = plain::split_faces(Split::quads, at, {});
-      const QuadNumbering numbering(topology, level);
+      const Numbering numbering(topology, level);
       const Count n = numbering.segment_count(), children = n * n;
       std::vector<Index> closed(at.vertex_count(), kNoIndex);
       std::set<std::array<Index, 4>> theirs, ours;
@@ -141,10 +141,10 @@ TEST(QuadNumbering, names_the_quads_that_refining_step_by_step_makes) {
   }
 }
 
-TEST(QuadNumbering, the_row_beside_a_half_edge_makes_quads_with_it) {
+TEST(Numbering, the_row_beside_a_half_edge_makes_quads_with_it) {
   for (const auto& [name, topology] : all_quads()) {
     SCOPED_TRACE(name);
-    const QuadNumbering numbering(topology, 2);
+    const Numbering numbering(topology, 2);
     const Count n = numbering.segment_count();
     for (Index h = 0; h < topology.corner_vertices().size(); ++h) {
       const Index e = topology.half_edge_edge(h);

@@ -1,21 +1,25 @@
-#include "core/lattice/triangles.h"
+#include "core/lattice/triangle_stream.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <vector>
 
+#include "core/lattice/lattice.h"
 #include "core/lattice/split.h"
 #include "core/mesh/topology.h"
+#include "core/refine/plan.h"
 #include "tests/shapes/build.h"
+#include "tests/shapes/polygons.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd {
 namespace {
 
-std::shared_ptr<const Connectivity<Triangles>> connectivity_of(const ControlMesh& mesh) {
-  return std::make_shared<const Connectivity<Triangles>>(static_cast<Index>(mesh.point_count()),
-                                                         Triangles(mesh.face_vertex_indices));
+std::shared_ptr<const Lattice> lattice_of(const ControlMesh& mesh) {
+  const auto plan = Plan::build(mesh, {.max_level = 0}, {});
+  EXPECT_TRUE(plan.ok());
+  return plan->mesh().lattice();
 }
 
 constexpr Index kUntouched = kNoIndex - 7;
@@ -34,7 +38,7 @@ std::vector<Index> in_pieces(TriangleStream stream, Count room) {
 }
 
 void expect_whole(const ControlMesh& mesh, Index level, std::span<const unsigned char> holes) {
-  const TriangleStream stream(connectivity_of(mesh), level, holes);
+  const TriangleStream stream(lattice_of(mesh), level, holes);
   const Buffer<Index> whole = *stream.all(1, {});
   const std::vector<Index> expected(whole.begin(), whole.end());
   ASSERT_EQ(stream.index_count(), expected.size());
@@ -43,11 +47,34 @@ void expect_whole(const ControlMesh& mesh, Index level, std::span<const unsigned
 }
 
 TEST(TriangleStream, makes_in_pieces_what_is_written_at_once) {
-  for (const auto& [name, mesh] : shapes::all_shapes())
+  std::vector<shapes::NamedShape> all = shapes::all_shapes();
+  for (auto& shape : shapes::polygon_shapes()) all.push_back(std::move(shape));
+  for (const auto& [name, mesh] : all)
     for (Index level = 0; level <= 5; ++level) {
       SCOPED_TRACE(name);
       if (mesh.face_count() * triangles_per_face(level) > 100'000) continue;
       expect_whole(mesh, level, std::vector<unsigned char>(mesh.face_count(), 0));
+    }
+}
+
+// Quads from their first corner on, and so polygons where they are not refined.
+TEST(TriangleStream, cuts_larger_faces_from_their_first_corner_on) {
+  for (const auto& [name, mesh] : shapes::polygon_shapes())
+    for (const Index level : {0, 1, 2, 3}) {
+      const auto lattice = lattice_of(mesh);
+      const std::vector<unsigned char> holes(mesh.face_count(), 0);
+      std::vector<Index> corners(lattice->corner_count(level)),
+          sizes(lattice->face_count(level), lattice->face_size(level));
+      ASSERT_TRUE(lattice->write_faces(level, holes, corners.data(), 1, {}));
+      if (lattice->face_size(level) == 0) lattice->write_face_sizes(holes, sizes.data(), Pace());
+      std::vector<Index> expected;
+      const Index* face = corners.data();
+      for (const Index size : sizes) {
+        for (Index k = 1; k + 1 < size; ++k) expected.insert(expected.end(), {face[0], face[k], face[k + 1]});
+        face += size;
+      }
+      const Buffer<Index> cut = *TriangleStream(lattice, level, holes).all(1, {});
+      ASSERT_EQ(std::vector<Index>(cut.begin(), cut.end()), expected) << name << ' ' << level;
     }
 }
 
@@ -67,7 +94,9 @@ TEST(TriangleStream, knows_what_it_keeps_in_memory) {
   for (const auto& [name, mesh] : shapes::all_shapes()) {
     const auto topology = std::make_shared<const Topology<Triangles>>(static_cast<Index>(mesh.point_count()),
                                                                       Triangles(mesh.face_vertex_indices));
-    const TriangleStream stream(topology, 5, std::vector<unsigned char>(mesh.face_count(), 0));
+    const TriangleStream stream(
+        std::make_shared<const Lattice>(std::shared_ptr<const Connectivity<Triangles>>(topology)), 5,
+        std::vector<unsigned char>(mesh.face_count(), 0));
     Count bytes = mesh.face_count() + topology->corner_vertices().size_bytes() +
                   topology->half_edge_edges().size_bytes() + topology->edge_vertices().size_bytes() +
                   topology->edge_sides().size_bytes() + topology->edge_kinds().size_bytes() +
@@ -93,7 +122,7 @@ TEST(TriangleStream, needs_room_for_a_row_and_not_for_a_face) {
   ControlMesh mesh;
   mesh.points.resize(9);
   mesh.face_vertex_indices = {0, 1, 2};
-  TriangleStream stream(connectivity_of(mesh), kMaxLevel, std::vector<unsigned char>(1, 0));
+  TriangleStream stream(lattice_of(mesh), kMaxLevel, std::vector<unsigned char>(1, 0));
   EXPECT_LT(stream.least_room(), Count{1} << 18);
   std::vector<Index> piece(stream.least_room());
   EXPECT_EQ(stream.next(piece), 3 * (2 * segments(kMaxLevel) - 1));

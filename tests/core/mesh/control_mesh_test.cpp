@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tests/shapes/build.h"
+#include "tests/shapes/polygons.h"
 
 namespace subdivd {
 namespace {
@@ -69,11 +70,36 @@ TEST(ControlMeshCheck, rejects_counts_that_add_up_only_in_32_bits) {
   expect_fault(mesh, ErrorCode::wrong_length, path({"faceVertexCounts"}));
 }
 
-TEST(ControlMeshCheck, rejects_a_face_of_four_vertices) {
+TEST(ControlMeshCheck, rejects_a_face_of_two_vertices) {
   ControlMesh mesh = cube();
   mesh.face_vertex_counts.assign(10, 3);
   mesh.face_vertex_counts.insert(mesh.face_vertex_counts.end(), {4, 2});
-  expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexCounts", index(10)}));
+  expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexCounts", index(11)}));
+}
+
+TEST(ControlMeshCheck, takes_faces_of_any_size) {
+  for (const auto& [name, mesh] : shapes::polygon_shapes()) EXPECT_TRUE(mesh.check().ok()) << name;
+}
+
+TEST(ControlMeshCheck, rejects_a_polygon_that_repeats_a_vertex) {
+  ControlMesh mesh = cube();
+  mesh.face_vertex_counts = {3, 4, 5};
+  mesh.face_vertex_indices = {0, 1, 2, 0, 1, 2, 3, 4, 5, 6, 7, 5};
+  expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexIndices", index(11)}));
+  mesh.face_vertex_indices = {0, 1, 2, 3, 4, 3, 5, 0, 1, 2, 6, 7};
+  expect_fault(mesh, ErrorCode::not_a_triangle, path({"faceVertexIndices", index(5)}));
+}
+
+TEST(ControlMeshCheck, knows_the_edges_of_polygons) {
+  ControlMesh mesh = cube();
+  mesh.face_vertex_counts = {4, 5};
+  mesh.face_vertex_indices = {0, 1, 2, 3, 2, 3, 4, 5, 6};
+  mesh.crease_lengths = {2};
+  mesh.crease_sharpnesses = {1};
+  mesh.crease_indices = {6, 2};
+  EXPECT_TRUE(mesh.check().ok());
+  mesh.crease_indices = {0, 2};  // a diagonal
+  expect_fault(mesh, ErrorCode::not_an_edge, path({"creaseIndices", index(1)}));
 }
 
 TEST(ControlMeshCheck, rejects_a_face_that_repeats_a_vertex) {

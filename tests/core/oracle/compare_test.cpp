@@ -125,8 +125,8 @@ TEST(Compare, names_the_corner_of_a_planted_face_varying_index) {
   st.indices[corner] = st.indices[0];
   const Deviation deviation = find(both.compared(), "primvars/st");
   EXPECT_EQ(deviation.verdict, Verdict::failed);
-  EXPECT_EQ(deviation.worst_vertex, both.ours.triangles[corner]);
-  EXPECT_EQ(deviation.worst_face, both.ours.triangle_faces[17]);
+  EXPECT_EQ(deviation.worst_vertex, both.ours.faces[corner]);
+  EXPECT_EQ(deviation.worst_face, both.ours.base_faces[17]);
 }
 
 TEST(Compare, a_value_that_is_not_a_number_fails) {

@@ -9,9 +9,8 @@ namespace subdivd::oracle::testing {
 namespace {
 
 Correspondence matched(const Both<double>& both) {
-  return match(
-      OurConnectivity{both.ours.level, both.ours.triangles, both.ours.triangle_faces, both.ours.provenance},
-      both.far, patient());
+  return match(OurConnectivity{both.ours.level, both.ours.faces, both.ours.base_faces, both.ours.provenance},
+               both.far, patient());
 }
 
 bool identical(const Both<double>& both) { return matched(both).identical; }
@@ -29,7 +28,7 @@ TEST(Correspondence, pairs_every_triangle_but_those_of_holes) {
   const auto both = both_of(rich_mesh());
   const Correspondence pairs = matched(both);
   EXPECT_EQ(std::count(pairs.triangles.begin(), pairs.triangles.end(), kNoIndex), 16);
-  EXPECT_EQ(both.ours.triangle_faces.size(), 9u * 16);
+  EXPECT_EQ(both.ours.base_faces.size(), 9u * 16);
 }
 
 TEST(Correspondence, paired_corners_are_the_same_vertex) {
@@ -37,7 +36,7 @@ TEST(Correspondence, paired_corners_are_the_same_vertex) {
   const Correspondence pairs = matched(both);
   for (std::size_t c = 0; c < pairs.corners.size(); ++c) {
     if (pairs.corners[c] == kNoIndex) continue;
-    ASSERT_EQ(both.ours.triangles[pairs.corners[c]], pairs.vertices[both.far.faces[c]]);
+    ASSERT_EQ(both.ours.faces[pairs.corners[c]], pairs.vertices[both.far.faces[c]]);
   }
 }
 
@@ -55,41 +54,39 @@ TEST(Correspondence, keeps_unreferenced_points) {
 
 TEST(Correspondence, accepts_corners_that_start_elsewhere) {
   auto both = both_of(rich_mesh());
-  std::rotate(both.ours.triangles.begin() + 9, both.ours.triangles.begin() + 10,
-              both.ours.triangles.begin() + 12);
+  std::rotate(both.ours.faces.begin() + 9, both.ours.faces.begin() + 10, both.ours.faces.begin() + 12);
   EXPECT_TRUE(identical(both));
 }
 
 TEST(Correspondence, finds_two_swapped_corners) {
   auto both = both_of(rich_mesh());
-  std::swap(both.ours.triangles[9], both.ours.triangles[10]);
+  std::swap(both.ours.faces[9], both.ours.faces[10]);
   EXPECT_FALSE(identical(both));
 }
 
 TEST(Correspondence, finds_two_swapped_triangles) {
   auto both = both_of(rich_mesh());
-  std::swap_ranges(both.ours.triangles.begin(), both.ours.triangles.begin() + 3,
-                   both.ours.triangles.begin() + 30);
+  std::swap_ranges(both.ours.faces.begin(), both.ours.faces.begin() + 3, both.ours.faces.begin() + 30);
   EXPECT_FALSE(identical(both));
 }
 
 TEST(Correspondence, finds_a_triangle_with_another_vertex) {
   auto both = both_of(rich_mesh());
-  both.ours.triangles[40] = both.ours.triangles[100];
+  both.ours.faces[40] = both.ours.faces[100];
   EXPECT_FALSE(identical(both));
 }
 
 TEST(Correspondence, finds_a_missing_triangle) {
   auto both = both_of(rich_mesh());
-  both.ours.triangles.resize(both.ours.triangles.size() - 3);
-  both.ours.triangle_faces.pop_back();
+  both.ours.faces.resize(both.ours.faces.size() - 3);
+  both.ours.base_faces.pop_back();
   EXPECT_FALSE(identical(both));
 }
 
 TEST(Correspondence, finds_a_triangle_too_many) {
   auto both = both_of(rich_mesh());
-  both.ours.triangles.insert(both.ours.triangles.end(), {0, 1, 2});
-  both.ours.triangle_faces.push_back(9);
+  both.ours.faces.insert(both.ours.faces.end(), {0, 1, 2});
+  both.ours.base_faces.push_back(9);
   EXPECT_FALSE(identical(both));
 }
 
@@ -103,7 +100,7 @@ TEST(Correspondence, finds_a_hole_that_was_filled) {
 
 TEST(Correspondence, finds_a_wrong_base_face) {
   auto both = both_of(rich_mesh());
-  both.ours.triangle_faces[20] = 8;
+  both.ours.base_faces[20] = 8;
   EXPECT_FALSE(identical(both));
 }
 

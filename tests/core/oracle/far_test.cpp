@@ -19,7 +19,7 @@ TEST(Far, counts_are_the_closed_forms) {
     ASSERT_TRUE(far.ok());
     const LevelCounts counts = refined_counts(12, 30, 20, level);
     EXPECT_EQ(far->vertices.size(), counts.vertices);
-    EXPECT_EQ(far->base_faces.size(), counts.triangles);
+    EXPECT_EQ(far->base_faces.size(), counts.faces);
   }
 }
 

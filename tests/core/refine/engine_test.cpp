@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/engine/tri_grid/evaluate.h"
+#include "core/engine/grid/kernels/instruction_sets.h"
 #include "core/engine/tri_grid/kernels/tri_step.h"
-#include "core/lattice/triangles.h"
 #include "core/refine/plan.h"
+#include "core/refine/refinable.h"
 #include "core/schemes/all.h"
 #include "tests/reference/plain_refine.h"
 #include "tests/shapes/build.h"
@@ -69,9 +69,9 @@ void expect_scheme_as_plain(const ControlMesh& mesh, const RefineOptions& option
   const auto plain = plain::refine<Real>(mesh, options);
   ASSERT_TRUE(ours.ok()) << what << ": " << ours.error().message;
   ASSERT_TRUE(plain.ok()) << what;
-  EXPECT_EQ(ours->triangles, plain->triangles) << what;
-  EXPECT_EQ(ours->triangle_faces, plain->triangle_faces) << what;
-  EXPECT_EQ(ours->triangle_count, plain->triangle_count) << what;
+  EXPECT_EQ(ours->faces, plain->faces) << what;
+  EXPECT_EQ(ours->base_faces, plain->base_faces) << what;
+  EXPECT_EQ(ours->face_count, plain->face_count) << what;
   EXPECT_TRUE(std::ranges::equal(
       ours->provenance, plain->provenance,
       [](const Provenance& a, const Provenance& b) { return a.face == b.face && a.i == b.i && a.j == b.j; }))
@@ -88,13 +88,14 @@ void expect_scheme_as_plain(const ControlMesh& mesh, const RefineOptions& option
   }
 }
 
-// By every scheme of the list.
+// By every scheme of the list that splits triangles.
 template <class Real>
 void expect_as_plain(ControlMesh mesh, const RefineOptions& options, const std::string& what) {
-  for (const std::string_view scheme : kSchemeNames) {
-    mesh.subdivision_scheme = scheme;
-    expect_scheme_as_plain<Real>(mesh, options, what + ' ' + std::string(scheme));
-  }
+  for_each_scheme(AllSchemes(), [&]<class S>(const S&) {
+    if (S::split != Split::triangles) return;
+    mesh.subdivision_scheme = S::name;
+    expect_scheme_as_plain<Real>(mesh, options, what + ' ' + std::string(S::name));
+  });
 }
 
 RefineOptions everything(Index level, CreaseMethod method = CreaseMethod::uniform) {
@@ -142,7 +143,7 @@ ControlMesh with_values_on_points(ControlMesh mesh) {
   return mesh;
 }
 
-bool has_border(const Topology<Triangles>& topology) {
+bool has_border(const Connectivity<Triangles>& topology) {
   return std::ranges::count(topology.edge_kinds(), EdgeKind::border) > 0;
 }
 
@@ -155,9 +156,9 @@ TEST(engine, channels_that_connect_as_the_mesh_does_equal_the_plain_ones) {
       mesh.face_varying_linear_interpolation = mode;
       const auto plan = Plan::build(mesh, {}, {});
       ASSERT_TRUE(plan.ok()) << shape.name;
-      const bool shared = &plan->channel_net(0) == &plan->net();
-      EXPECT_EQ(shared, mode != all && !has_border(plan->net().topology())) << shape.name;
-      EXPECT_EQ(&plan->channel_net(1), &plan->channel_net(0)) << shape.name;
+      const bool shared = &plan->channel(0) == &plan->mesh();
+      EXPECT_EQ(shared, mode != all && !has_border(plan->mesh().lattice()->triangles())) << shape.name;
+      EXPECT_EQ(&plan->channel(1), &plan->channel(0)) << shape.name;
       ++(shared ? as_mesh : of_their_own);
       const std::string what = shape.name + " mode " + std::to_string(static_cast<int>(mode));
       expect_as_plain<double>(mesh, everything(2), what);
@@ -174,7 +175,7 @@ void expect_same_bytes(const RefinedMesh<Real>& a, const RefinedMesh<Real>& b, c
   EXPECT_EQ(a.tangents_u, b.tangents_u) << what;
   EXPECT_EQ(a.tangents_v, b.tangents_v) << what;
   EXPECT_EQ(a.normals, b.normals) << what;
-  EXPECT_EQ(a.triangles, b.triangles) << what;
+  EXPECT_EQ(a.faces, b.faces) << what;
   for (std::size_t p = 0; p < a.primvars.size(); ++p) {
     EXPECT_EQ(a.primvars[p].values, b.primvars[p].values) << what;
     EXPECT_EQ(a.primvars[p].limit_values, b.primvars[p].limit_values) << what;
@@ -202,12 +203,12 @@ TEST(engine, a_channel_numbered_backwards_equals_the_points) {
   const auto refined = refine<double>(mesh, options, {});
   ASSERT_TRUE(refined.ok());
   const auto& values = refined->primvars[0];
-  for (std::size_t k = 0; k < refined->triangles.size(); ++k)
+  for (std::size_t k = 0; k < refined->faces.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) {
-      ASSERT_NEAR(values.values[3 * values.indices[k] + c], refined->points[3 * refined->triangles[k] + c],
+      ASSERT_NEAR(values.values[3 * values.indices[k] + c], refined->points[3 * refined->faces[k] + c],
                   1e-14);
       ASSERT_NEAR(values.limit_values[3 * values.indices[k] + c],
-                  refined->limit_points[3 * refined->triangles[k] + c], 1e-14);
+                  refined->limit_points[3 * refined->faces[k] + c], 1e-14);
     }
 }
 
@@ -278,7 +279,7 @@ TEST(engine, refines_a_million_triangles_that_share_nothing) {
   const auto refined = refine<float>(mesh, options, {});
   ASSERT_TRUE(refined.ok());
   EXPECT_EQ(refined->points.size(), 3u * 6 * count);
-  EXPECT_EQ(refined->triangles.size(), 3u * 4 * count);
+  EXPECT_EQ(refined->faces.size(), 3u * 4 * count);
 }
 
 TEST(engine, refines_one_triangle_to_level_12) {
@@ -291,7 +292,7 @@ TEST(engine, refines_one_triangle_to_level_12) {
   const auto refined = refine<float>(mesh, options, {});
   ASSERT_TRUE(refined.ok());
   EXPECT_EQ(refined->points.size() / 3, 4097u * 4098 / 2);
-  const Index last = *std::ranges::max_element(refined->triangles);
+  const Index last = *std::ranges::max_element(refined->faces);
   EXPECT_EQ(last + 1, refined->points.size() / 3);
   for (std::size_t k = 0; k < refined->points.size(); k += 3) {
     ASSERT_GE(refined->points[k], 0);
@@ -307,9 +308,9 @@ TEST(engine, evaluates_one_plan_again_for_other_values) {
   for (const double scale : {1.0, -2.0, 4.0}) {
     ControlMesh moved = mesh;
     for (double& x : moved.points) x *= scale;
-    std::vector<double> values(3 * plan->net().value_count(3));
+    std::vector<double> values(3 * plan->mesh().value_count(3));
     const auto done =
-        evaluate<double>(plan->net(), 3, moved.points, 3, Smoothing::smooth, {values.data()}, 1, {});
+        evaluate<double>(plan->mesh(), 3, moved.points, 3, Smoothing::smooth, {values.data()}, 1, {});
     ASSERT_TRUE(done.ok());
     const auto once = refine<double>(moved, {.level = 3}, {});
     EXPECT_TRUE(std::ranges::equal(values, once->points)) << scale;
@@ -330,7 +331,7 @@ TEST(engine, refines_other_values_by_the_plan_of_their_cage) {
     ASSERT_TRUE(by_plan.ok());
     ASSERT_TRUE(std::ranges::equal(by_plan->points, anew->points));
     ASSERT_TRUE(std::ranges::equal(by_plan->limit_points, anew->limit_points));
-    ASSERT_TRUE(std::ranges::equal(by_plan->triangles, anew->triangles));
+    ASSERT_TRUE(std::ranges::equal(by_plan->faces, anew->faces));
     for (std::size_t k = 0; k < mesh.primvars.size(); ++k)
       ASSERT_TRUE(std::ranges::equal(by_plan->primvars[k].values, anew->primvars[k].values));
   }
@@ -351,13 +352,13 @@ TEST(engine, stops_at_a_deadline_before_the_end) {
   const ControlMesh mesh = fan(200);
   const auto plan = Plan::build(mesh, {}, {});
   const std::vector<float> control(mesh.points.begin(), mesh.points.end());
-  Buffer<float> values(3 * plan->net().value_count(9));
+  Buffer<float> values(3 * plan->mesh().value_count(9));
   Budget budget;
   budget.deadline = Budget::Clock::now();
   for (const Index threads : {1u, 2u}) {
     values.back() = -7;
     const auto done =
-        evaluate<float>(plan->net(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
+        evaluate<float>(plan->mesh(), 9, control, 3, Smoothing::smooth, {values.data()}, threads, budget);
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().code, ErrorCode::deadline_exceeded);
     EXPECT_EQ(values.back(), -7);  // nobody got that far

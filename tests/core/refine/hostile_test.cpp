@@ -86,7 +86,7 @@ TEST(HostileRefine, a_hundred_thousand_render_meshes_take_linear_time) {
   const auto refined = refine<float>(mesh, options, within(kLinear));
   ASSERT_TRUE(refined.ok());
   for (Count k = 0; k < refined->render_meshes.size(); ++k)
-    ASSERT_EQ(refined->render_meshes[k].triangle_begin, 4 * k);
+    ASSERT_EQ(refined->render_meshes[k].face_begin, 4 * k);
 }
 
 // Refining makes that many vertices, and is refused; saying so must not take as long as doing it.

@@ -18,7 +18,7 @@ Count bytes_of(const Buffer<T>& items) {
 
 template <class Real>
 Count bytes_of(const RefinedMesh<Real>& mesh) {
-  Count bytes = bytes_of(mesh.points) + bytes_of(mesh.triangles) + bytes_of(mesh.triangle_faces) +
+  Count bytes = bytes_of(mesh.points) + bytes_of(mesh.faces) + bytes_of(mesh.base_faces) +
                 bytes_of(mesh.provenance) + bytes_of(mesh.limit_points) + bytes_of(mesh.tangents_u) +
                 bytes_of(mesh.tangents_v) + bytes_of(mesh.normals);
   for (const auto& primvar : mesh.primvars)
@@ -46,7 +46,7 @@ TEST(PredictSize, tells_counts_and_bytes_beforehand) {
       ASSERT_TRUE(size.ok());
       ASSERT_TRUE(refined.ok());
       EXPECT_EQ(size->counts.vertices, refined->points.size() / 3);
-      EXPECT_EQ(size->counts.triangles, refined->triangles.size() / 3);
+      EXPECT_EQ(size->counts.faces, refined->faces.size() / 3);
       EXPECT_EQ(size->bytes, bytes_of(*refined));
     }
   }
@@ -59,7 +59,7 @@ TEST(Refine, level_zero_is_the_control_mesh) {
   const auto refined = refine<double>(mesh, options, {});
   ASSERT_TRUE(refined.ok());
   EXPECT_TRUE(std::ranges::equal(refined->points, mesh.points));
-  EXPECT_TRUE(std::ranges::equal(refined->triangles, mesh.face_vertex_indices));
+  EXPECT_TRUE(std::ranges::equal(refined->faces, mesh.face_vertex_indices));
 }
 
 TEST(Refine, refuses_a_level_over_the_maximum) {
@@ -122,7 +122,7 @@ TEST(Refine, is_finite_for_coordinates_of_any_allowed_size) {
 
 TEST(Refine, refuses_an_unknown_scheme) {
   ControlMesh mesh = shapes::cube();
-  mesh.subdivision_scheme = "catmullClark";
+  mesh.subdivision_scheme = "catmullclark";
   EXPECT_EQ(refine<double>(mesh, {}, {}).error().code, ErrorCode::bad_enum);
 }
 
@@ -132,9 +132,9 @@ TEST(Refine, holes_leave_out_their_triangles_and_keep_everything_else) {
   mesh.hole_indices = {3};
   const auto holed = refine<double>(mesh, {}, {});
   EXPECT_EQ(holed->points, whole->points);
-  Buffer<Index> expected = whole->triangles;
+  Buffer<Index> expected = whole->faces;
   expected.erase(expected.begin() + 3 * 3 * 16, expected.begin() + 4 * 3 * 16);
-  EXPECT_EQ(holed->triangles, expected);
+  EXPECT_EQ(holed->faces, expected);
 }
 
 TEST(Refine, provenance_names_the_place_of_every_vertex) {
@@ -143,12 +143,11 @@ TEST(Refine, provenance_names_the_place_of_every_vertex) {
   options.level = 2;
   const auto refined = refine<double>(mesh, options, {});
   for (Index v = 0; v < refined->provenance.size(); ++v) {
-    const auto [face, i, j] = refined->provenance[v];
+    const auto [face, i, j, corner] = refined->provenance[v];
     ASSERT_LT(face, mesh.face_count());
     ASSERT_LE(i + j, 4u);
   }
-  for (std::size_t t = 0; t < refined->triangle_faces.size(); ++t)
-    ASSERT_EQ(refined->triangle_faces[t], t / 16);
+  for (std::size_t t = 0; t < refined->base_faces.size(); ++t) ASSERT_EQ(refined->base_faces[t], t / 16);
 }
 
 // A tag on a point without faces used to step a ring that is empty.

@@ -47,10 +47,10 @@ TEST(RenderMesh, copies_positions_so_that_seams_cannot_crack) {
   ASSERT_TRUE(refined.ok());
   const RefinedRenderMesh& render = refined->render_meshes[0];
   const Buffer<Index> indices = indices_of(render);
-  ASSERT_EQ(indices.size(), refined->triangles.size());
+  ASSERT_EQ(indices.size(), refined->faces.size());
   // Every corner of the render mesh copies the refined vertex that stands at that corner.
   for (std::size_t k = 0; k < indices.size(); ++k)
-    ASSERT_EQ(render.source_vertices[indices[k]], refined->triangles[k]);
+    ASSERT_EQ(render.source_vertices[indices[k]], refined->faces[k]);
   // The seam's refined points exist twice: its render vertices, and 3 points inside each edge between them.
   const Count seam = mesh.point_count() / 6;
   EXPECT_EQ(render.vertex_count, refined->points.size() / 3 + seam + 3 * (seam - 1));
@@ -66,15 +66,15 @@ TEST(RenderMesh, parts_take_their_own_ranges_of_triangles) {
   RefineOptions options;
   options.level = 1;
   const auto refined = refine<float>(mesh, options, {});
-  EXPECT_EQ(refined->render_meshes[0].triangle_begin, 0u);
-  EXPECT_EQ(refined->render_meshes[0].triangle_end, 16u);
-  EXPECT_EQ(refined->render_meshes[1].triangle_begin, 16u);
-  EXPECT_EQ(refined->render_meshes[1].triangle_end, 40u);
+  EXPECT_EQ(refined->render_meshes[0].face_begin, 0u);
+  EXPECT_EQ(refined->render_meshes[0].face_end, 16u);
+  EXPECT_EQ(refined->render_meshes[1].face_begin, 16u);
+  EXPECT_EQ(refined->render_meshes[1].face_end, 40u);
   for (const RefinedRenderMesh& render : refined->render_meshes) {
     const Buffer<Index> indices = indices_of(render);
-    ASSERT_EQ(indices.size(), 3 * (render.triangle_end - render.triangle_begin));
+    ASSERT_EQ(indices.size(), 3 * (render.face_end - render.face_begin));
     for (Count k = 0; k < indices.size(); ++k)
-      EXPECT_EQ(render.source_vertices[indices[k]], refined->triangles[3 * render.triangle_begin + k]);
+      EXPECT_EQ(render.source_vertices[indices[k]], refined->faces[3 * render.face_begin + k]);
   }
 }
 
@@ -89,7 +89,7 @@ RefinedRenderMesh refined_render_mesh(const ControlMesh& mesh) {
   EXPECT_TRUE(mesh.check().ok());
   auto refined = refine<float>(mesh, {.level = 2}, {});
   EXPECT_TRUE(refined.ok());
-  EXPECT_EQ(refined->render_meshes[0].triangles.index_count(), refined->triangles.size());
+  EXPECT_EQ(refined->render_meshes[0].triangles.index_count(), refined->faces.size());
   return std::move(refined->render_meshes[0]);
 }
 
@@ -97,7 +97,7 @@ TEST(RenderMesh, that_connects_as_the_mesh_does_needs_no_sources) {
   const ControlMesh mesh = rendered_as_it_is(shapes::icosahedron());
   const RefinedRenderMesh render = refined_render_mesh(mesh);
   EXPECT_TRUE(render.source_vertices.empty());
-  EXPECT_EQ(indices_of(render), refine<float>(mesh, {.level = 2}, {})->triangles);
+  EXPECT_EQ(indices_of(render), refine<float>(mesh, {.level = 2}, {})->faces);
   EXPECT_EQ(render.vertex_count, refine<float>(mesh, {.level = 2}, {})->points.size() / 3);
 }
 

@@ -114,19 +114,19 @@ TEST(AllSchemes, are_found_by_name_and_no_other_is) {
   ASSERT_TRUE(found.has_value());
   ASSERT_TRUE(std::holds_alternative<Loop>(*found));
   EXPECT_EQ(std::get<Loop>(*found).weights, LoopWeights::warren);
-  EXPECT_FALSE(find_scheme("catmullClark").has_value());
+  EXPECT_FALSE(find_scheme("catmullclark").has_value());
   EXPECT_FALSE(find_scheme("").has_value());
 }
 
 TEST(AllSchemes, a_mesh_that_names_none_has_the_first) {
   AllSchemes schemes;
   std::get<Loop>(schemes).weights = LoopWeights::warren;
-  const auto standard = scheme_of_mesh(ControlMesh().subdivision_scheme, schemes);
+  const auto standard = scheme_of_mesh(ControlMesh().subdivision_scheme, {3, 3}, schemes);
   ASSERT_TRUE(standard.has_value());
   EXPECT_EQ(standard->index(), 0u);
   EXPECT_EQ(std::get<Loop>(*standard).weights, LoopWeights::warren);
-  EXPECT_TRUE(scheme_of_mesh(kSchemeNames.back()).has_value());
-  EXPECT_FALSE(scheme_of_mesh("catmullClark").has_value());
+  EXPECT_TRUE(scheme_of_mesh(kSchemeNames.back(), {3, 3}).has_value());
+  EXPECT_FALSE(scheme_of_mesh("catmullclark", {3, 3}).has_value());
 }
 
 TEST(AllSchemes, options_have_names_of_their_own_and_take_their_words) {

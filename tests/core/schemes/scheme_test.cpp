@@ -98,10 +98,14 @@ TEST(SubdivisionScheme, asks_for_tangent_masks) {
   struct NoneAcross : Like<NoneAcross> {
     void crease_tangent_across() const;
   };
+  struct NoCorners : Like<NoCorners> {
+    void flat_corner_faces() const;
+  };
   EXPECT_TRUE(kIsNone<NoU>);
   EXPECT_TRUE(kIsNone<NoV>);
   EXPECT_TRUE(kIsNone<NoDart>);
   EXPECT_TRUE(kIsNone<NoneAcross>);
+  EXPECT_TRUE(kIsNone<NoCorners>);
 }
 
 // A ring of ten million edges is not left before its mask is done unless the mask polls.

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/lattice/lattice.h"
 #include "core/lattice/numbering.h"
+#include "core/lattice/quads.h"
+#include "core/refine/plan.h"
 #include "core/refine/refine.h"
 #include "core/schemes/all.h"
 #include "tests/shapes/build.h"
@@ -61,7 +65,9 @@ TEST(RefineProperties, the_limit_of_the_refined_is_the_limit) {
       SCOPED_TRACE(name);
       const auto at0 = refined(mesh, 0, true, method), at1 = refined(mesh, 1, true, method),
                  at3 = refined(mesh, 3, true, method);
-      const double tolerance = 2e-15 * std::max(extent(mesh), 1.0);
+      // Around a vertex of quads twice as many points are added up, with weights that are further apart.
+      const bool triangles = at0.face_size == 3 && at1.face_size == 3;
+      const double tolerance = (triangles ? 2e-15 : 2e-14) * std::max(extent(mesh), 1.0);
       for (std::size_t k = 0; k < at0.limit_points.size(); ++k) {
         ASSERT_NEAR(at0.limit_points[k], at1.limit_points[k], tolerance) << "vertex " << k / 3;
         ASSERT_NEAR(at0.limit_points[k], at3.limit_points[k], tolerance) << "vertex " << k / 3;
@@ -134,6 +140,26 @@ TEST(RefineProperties, planar_meshes_stay_planar_with_normals_across) {
 }
 
 // New numbers for points and faces, faces turned by a corner: the same surface under the new numbers.
+// The vertex at every point of every base face's grid, or of the grids of its quads: {face, corner, i, j}.
+std::vector<std::pair<std::array<Index, 4>, Index>> vertices_at_places(const Lattice& lattice, Index level) {
+  std::vector<std::pair<std::array<Index, 4>, Index>> places;
+  const Index n = 1u << (level - lattice.first_level());
+  if (lattice.has_triangles()) {
+    const Numbering numbering(lattice.triangles(), level);
+    for (Index f = 0; f < lattice.base_face_count(); ++f)
+      for (Index j = 0; j <= n; ++j)
+        for (Index i = 0; i + j <= n; ++i) places.push_back({{f, 0, i, j}, numbering.vertex(f, i, j)});
+    return places;
+  }
+  const Numbering numbering(lattice.quads(), level - lattice.first_level());
+  Index quad = 0;
+  for (Index f = 0; f < lattice.base_face_count(); ++f)
+    for (Index k = 0; k < (lattice.first_level() == 0 ? 1 : lattice.base_face_size(f)); ++k, ++quad)
+      for (Index j = 0; j <= n; ++j)
+        for (Index i = 0; i <= n; ++i) places.push_back({{f, k, i, j}, numbering.vertex(quad, i, j)});
+  return places;
+}
+
 TEST(RefineProperties, renumbering_only_renumbers) {
   for (const auto& [name, mesh] : all()) {
     SCOPED_TRACE(name);
@@ -152,20 +178,25 @@ TEST(RefineProperties, renumbering_only_renumbers) {
       for (Index& v : *indices) v = new_point(v);
     for (Index& f : other.hole_indices) f = new_face(f);
     const auto a = refined(mesh, 2, true), b = refined(other, 2, true);
-    const Topology<Triangles> topology_a(points, Triangles(mesh.face_vertex_indices)),
-        topology_b(points, Triangles(other.face_vertex_indices));
-    const Numbering place_a(topology_a, 2), place_b(topology_b, 2);
     ASSERT_EQ(a.points.size(), b.points.size());
-    for (Index f = 0; f < faces; ++f)
-      for (Count j = 0; j <= 4; ++j)
-        for (Count i = 0; i + j <= 4; ++i) {
-          // Corner k became corner k + 1: (i, j) with k = 4 - i - j moves on by one.
-          const Index va = place_a.vertex(f, i, j), vb = place_b.vertex(new_face(f), 4 - i - j, i);
-          for (Index c = 0; c < 3; ++c) {
-            ASSERT_NEAR(a.points[3 * va + c], b.points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
-            ASSERT_NEAR(a.limit_points[3 * va + c], b.limit_points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
-          }
-        }
+    // Where on the control mesh a vertex lies tells which it is: corner k became corner k + 1.
+    const auto key = [](Index face, const Provenance& place) {
+      return std::array<Index, 4>{face, place.corner, place.i, place.j};
+    };
+    std::map<std::array<Index, 4>, Index> in_b;
+    const auto lattice = Plan::build(other, {.max_level = 2}, {})->mesh().lattice();
+    for (const auto& [place, v] : vertices_at_places(*lattice, 2)) in_b[place] = v;
+    const auto lattice_a = Plan::build(mesh, {.max_level = 2}, {})->mesh().lattice();
+    const bool triangles = lattice_a->has_triangles();
+    for (const auto& [place, va] : vertices_at_places(*lattice_a, 2)) {
+      const auto [f, k, i, j] = place;
+      const Provenance turned = triangles ? Provenance{0, 4 - i - j, i, 0} : Provenance{0, i, j, (k + 1) % 3};
+      const Index vb = in_b.at(key(new_face(f), turned));
+      for (Index c = 0; c < 3; ++c) {
+        ASSERT_NEAR(a.points[3 * va + c], b.points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
+        ASSERT_NEAR(a.limit_points[3 * va + c], b.limit_points[3 * vb + c], 1e-14 * (extent(mesh) + 1));
+      }
+    }
   }
 }
 
@@ -178,30 +209,34 @@ TEST(RefineProperties, two_single_steps_are_one_double_step) {
     const auto once = refined(mesh, 1), twice = refined(mesh, 2);
     ControlMesh between;
     between.points.assign(once.points.begin(), once.points.end());
-    between.face_vertex_indices.assign(once.triangles.begin(), once.triangles.end());
+    between.face_vertex_indices.assign(once.faces.begin(), once.faces.end());
+    between.subdivision_scheme = mesh.subdivision_scheme;
+    const Index size = once.face_size;
+    if (size != 3) between.face_vertex_counts.assign(once.face_count, size);
     const auto again = refined(between, 1);
     ASSERT_EQ(again.points.size(), twice.points.size());
-    // Numbers differ; the triangles are the same triangles.
-    auto corners = [](const RefinedMesh<double>& m) {
-      std::vector<std::array<double, 9>> rows;
-      for (std::size_t t = 0; t < m.triangles.size(); t += 3) {
-        std::array<double, 9> row{};
-        for (std::size_t k = 0; k < 9; ++k)  // rounded: sums may run in another order
-          row[k] = std::round(m.points[3 * m.triangles[t + k / 3] + k % 3] * 1e10) / 1e10 + 0.0;
+    // Numbers differ; the faces are the same faces.
+    auto corners = [size](const RefinedMesh<double>& m) {
+      std::vector<std::vector<double>> rows;
+      for (std::size_t f = 0; f < m.faces.size(); f += size) {
+        std::vector<double> row;
+        for (Index k = 0; k < size; ++k)
+          for (std::size_t c = 0; c < 3; ++c)  // rounded: sums may run in another order
+            row.push_back(std::round(m.points[3 * m.faces[f + k] + c] * 1e10) / 1e10 + 0.0);
         // Start at the smallest corner, keeping the winding.
-        std::array<double, 9> best = row;
-        for (int turn = 0; turn < 2; ++turn) {
+        std::vector<double> best = row;
+        for (Index turn = 1; turn < size; ++turn) {
           std::rotate(row.begin(), row.begin() + 3, row.end());
           best = std::min(best, row);
         }
-        rows.push_back(best);
+        rows.push_back(std::move(best));
       }
       std::ranges::sort(rows);
       return rows;
     };
     const auto a = corners(again), b = corners(twice);
-    for (std::size_t t = 0; t < a.size(); ++t)
-      for (std::size_t k = 0; k < 9; ++k) ASSERT_NEAR(a[t][k], b[t][k], 2e-10) << "triangle " << t;
+    for (std::size_t f = 0; f < a.size(); ++f)
+      for (std::size_t k = 0; k < a[f].size(); ++k) ASSERT_NEAR(a[f][k], b[f][k], 2e-10) << "face " << f;
   }
 }
 

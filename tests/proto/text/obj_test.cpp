@@ -59,9 +59,10 @@ TEST(obj, indices_below_zero_count_back_and_those_of_later_points_are_taken) {
   EXPECT_THAT(request.meshes.at(0).face_vertex_indices, ElementsAre(0, 1, 2, 0, 3, 1, 3, 1, 2));
 }
 
-TEST(obj, larger_faces_want_triangulate) {
+TEST(obj, larger_faces_are_kept_or_split) {
   const std::string body = kFourPoints + "f 1 2 3 4\nf 1 3 2\n";
-  EXPECT_THAT(refusal_of(body), HasSubstr("set triangulate to true"));
+  EXPECT_THAT(read(body).meshes.at(0).face_vertex_counts, ElementsAre(4, 3));
+  EXPECT_THAT(refusal_of(body, {{"subdivisionScheme", "loop"}}), HasSubstr("set triangulate to true"));
   EXPECT_THAT(read(body, {{"triangulate", "1"}}).meshes.at(0).face_vertex_indices,
               ElementsAre(0, 1, 2, 0, 2, 3, 0, 2, 1));
 }

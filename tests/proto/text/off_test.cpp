@@ -92,9 +92,10 @@ TEST(off, numbers_are_read_to_the_last_bit) {
   EXPECT_THAT(mesh_of(request).points, ElementsAre(0.1, -2.5e-3, 7, 0, 3.14159265358979312, 0.5, 1, 2, 3));
 }
 
-TEST(off, larger_faces_want_triangulate) {
+TEST(off, larger_faces_are_kept_or_split) {
   const std::string body = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n4 0 1 2 3\n3 0 1 4\n";
-  EXPECT_THAT(refusal_of(body), HasSubstr("set triangulate to true"));
+  EXPECT_THAT(mesh_of(read(body)).face_vertex_counts, ElementsAre(4, 3));
+  EXPECT_THAT(refusal_of(body, {{"subdivisionScheme", "loop"}}), HasSubstr("set triangulate to true"));
   const RefineRequest request = read(body, {{"triangulate", "true"}});
   EXPECT_THAT(mesh_of(request).face_vertex_indices, ElementsAre(0, 1, 2, 0, 2, 3, 0, 1, 4));
 }

@@ -1,6 +1,6 @@
-#include <atomic>
 #include <type_traits>
 
+#include "core/engine/grid/kernels/instruction_sets.h"
 #include "core/engine/tri_grid/kernels/tri_step.h"
 
 namespace subdivd::kernels {
@@ -35,33 +35,11 @@ const TriKernels<Real>* choose(int set) {
   return pick(baseline::kFloat, baseline::kDouble);
 }
 
-std::atomic<int> forced{-1};
-
-int best() {
-  int set = kInstructionSets - 1;
-  while (!has_instruction_set(set)) --set;
-  return set;
-}
-
 }  // namespace
-
-bool has_instruction_set(int set) {
-#ifdef SUBDIVD_NEWER_KERNELS
-  if (set == 2)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (set == 1) return __builtin_cpu_supports("avx2") != 0;
-#endif
-  return set == 0;
-}
-
-void force_instruction_set(int set) { forced.store(set, std::memory_order_relaxed); }
 
 template <class Real>
 const TriKernels<Real>& tri_kernels() {
-  static const int kBest = best();
-  const int set = forced.load(std::memory_order_relaxed);
-  return *choose<Real>(set < 0 ? kBest : set);
+  return *choose<Real>(instruction_set());
 }
 
 template const TriKernels<float>& tri_kernels<float>();

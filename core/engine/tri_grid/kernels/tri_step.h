@@ -3,6 +3,7 @@
 // several instruction sets without sharing a single inline function with the rest of the program.
 
 #include "core/base/index.h"
+#include "core/engine/grid/kernels/step.h"
 
 namespace subdivd::kernels {
 
@@ -43,52 +44,16 @@ struct TriLimit {
   // Per valence up to kListedValence: limit weight of a smooth vertex, of each neighbour; and kListedValence
   // pairs of the neighbours' weights in the two tangents.
   const Real *vertex_masks, *vertex_tangents;
-  Real *tangents_u, *tangents_v, *normals;  // may be null
-  // Sets the frame of a vertex whose tangents are too close to parallel, too long or too short for the short
-  // way. `context` is handed through.
-  void (*robust_frame)(const void* context, Count vertex, Real* u, Real* v, Real* normal);
-  const void* context;
-};
-
-// Rows [row, ...) of the faces from `face` on.
-struct FaceRow {
-  Index face = 0;
-  Count row = 0;
+  FrameOutput<Real> frames;
 };
 
 inline constexpr Count row_stride(Count n) { return 4 * (n + 4); }
 inline constexpr Count row_scratch(Count n) { return 6 * row_stride(n) + 16; }
 
-inline constexpr Index kListedValence = 64;
-
-// The loops for one instruction set; index K - 1 holds those for K scalars, 1 to 4.
 template <class Real>
-struct TriKernels {
-  const char* name;
-  // Those of the base vertices [begin, end) that are smooth or darts and of a listed valence; the others are
-  // left alone.
-  void (*refine_vertices[4])(const TriStep<Real>&, Index begin, Index end);
-  // The points inside base edges [begin, end), by their settled rules.
-  void (*refine_edges[4])(const TriStep<Real>&, Index begin, Index end);
-  // The points inside faces that stem from the coarse rows [begin, end).
-  void (*refine_faces[4])(const TriStep<Real>&, FaceRow begin, FaceRow end);
-  // Limits of the base vertices [begin, end) that are smooth and of a listed valence; the others are left
-  // alone.
-  void (*limit_vertices[4])(const TriLimit<Real>&, Index begin, Index end);
-  // Limits of the points inside faces; rows are those of the level itself, 1 to n - 2.
-  void (*limit_faces[4])(const TriLimit<Real>&, FaceRow begin, FaceRow end);
-  // Limits of the points inside smooth edges; other edges are left alone.
-  void (*limit_edges[4])(const TriLimit<Real>&, Index begin, Index end);
-};
-
+using TriKernels = GridKernels<TriStep<Real>, TriLimit<Real>>;
 // Those for this processor, or for what force_instruction_set chose.
 template <class Real>
 const TriKernels<Real>& tri_kernels();
-
-// Names of the instruction sets that this processor has, "baseline" first, best last.
-inline constexpr int kInstructionSets = 3;
-bool has_instruction_set(int set);
-// For tests: the answer must not depend on it. -1: the best.
-void force_instruction_set(int set);
 
 }  // namespace subdivd::kernels

@@ -1,13 +1,27 @@
-#include "core/engine/tri_grid/base_edges.h"
+#include "core/engine/grid/base_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "core/engine/tri_grid/base_vertices.h"
+#include "core/engine/grid/regular_ring.h"
 #include "core/lattice/numbering.h"
+#include "core/lattice/quads.h"
 
 namespace subdivd {
+namespace {
+
+// Of a ring around a point inside an edge, counter-clockwise from the edge: what the edge's two segments at the point
+// have, and 0 at all others.
+template <class Scheme>
+std::array<float, Scheme::regular_valence> on_segments(float ahead, float behind) {
+  std::array<float, Scheme::regular_valence> ring{};
+  ring[0] = ahead;
+  ring[Scheme::regular_valence / 2] = behind;
+  return ring;
+}
+
+}  // namespace
 
 template <class Scheme, class Real>
 void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, const Real* from,
@@ -22,30 +36,47 @@ void BaseEdges<Scheme, Real>::refine_strip(Index level, std::size_t position, co
   const Numbering numbering(net_.topology(), level);
   const Count n = segments(level);
   const auto sides = net_.topology().edge_sides()[e];
+  constexpr Index kValence = Scheme::regular_valence;
   const auto at = [&](Count point) { return from + point * width_; };
   Real* out = to + (net_.topology().vertex_count() + e * (2 * n - 1)) * width_;
   for (Count k = 0; k < n; ++k) {
     if (k > 0) {
-      const std::array<float, 6> sharp{parent.segment(position, k),     0, 0,
-                                       parent.segment(position, k - 1), 0, 0};
-      const std::array<float, 6> sharp_next{child(2 * k), 0, 0, child(2 * k - 1), 0, 0};
-      const VertexMask mask = scheme_.vertex_mask({6, net_.crease_method(), 0, 0, sharp, sharp_next});
+      const auto sharp = on_segments<Scheme>(parent.segment(position, k), parent.segment(position, k - 1));
+      const auto sharp_next = on_segments<Scheme>(child(2 * k), child(2 * k - 1));
+      const VertexMask mask = scheme_.vertex_mask({kValence, net_.crease_method(), 0, 0, sharp, sharp_next});
       const auto around = numbering.ring_on_edge(e, k);
       const Real* here = at(numbering.along(e, k));
       for (Index c = 0; c < width_; ++c) {
         Real sum = static_cast<Real>(mask.self) * here[c];
-        for (const Index point : around) sum += static_cast<Real>(mask.each) * at(point)[c];
-        for (const Index end : mask.crease_ends) sum += static_cast<Real>(mask.crease) * at(around[end])[c];
+        for (const Index point : around.edges) sum += static_cast<Real>(mask.each) * at(point)[c];
+        for (const Index end : mask.crease_ends)
+          sum += static_cast<Real>(mask.crease) * at(around.edges[end])[c];
+        for (Index f = 0; f < around.opposite.size(); ++f)
+          sum += static_cast<Real>(mask.face / 4) *
+                 ((here[c] + at(around.edges[f])[c]) +
+                  (at(around.opposite[f])[c] + at(around.edges[(f + 1) % kValence])[c]));
         *out++ = sum;
       }
     }
     const EdgeMask mask =
         scheme_.edge_mask({2, parent.segment(position, k), {child(2 * k), child(2 * k + 1)}});
     const Real *a = at(numbering.along(e, k)), *b = at(numbering.along(e, k + 1));
-    const Real *c0 = at(numbering.beside(sides[0], k)), *c1 = at(numbering.beside(sides[1], n - 1 - k));
-    for (Index c = 0; c < width_; ++c)
-      *out++ =
-          static_cast<Real>(mask.end) * (a[c] + b[c]) + static_cast<Real>(mask.opposite) * (c0[c] + c1[c]);
+    if constexpr (kHasFacePoints) {
+      const Real* beside[4] = {at(numbering.beside(sides[0], k)), at(numbering.beside(sides[0], k + 1)),
+                               at(numbering.beside(sides[1], n - k)),
+                               at(numbering.beside(sides[1], n - 1 - k))};
+      for (Index c = 0; c < width_; ++c) {
+        const Real ends = a[c] + b[c];
+        *out++ = static_cast<Real>(mask.end) * ends +
+                 static_cast<Real>(mask.face / 4) *
+                     ((ends + (beside[0][c] + beside[1][c])) + (ends + (beside[2][c] + beside[3][c])));
+      }
+    } else {
+      const Real *c0 = at(numbering.beside(sides[0], k)), *c1 = at(numbering.beside(sides[1], n - 1 - k));
+      for (Index c = 0; c < width_; ++c)
+        *out++ =
+            static_cast<Real>(mask.end) * (a[c] + b[c]) + static_cast<Real>(mask.opposite) * (c0[c] + c1[c]);
+    }
   }
 }
 
@@ -57,7 +88,7 @@ void BaseEdges<Scheme, Real>::refine_semi_sharp(Index level, const Real* from, R
     refine_strip(level, static_cast<std::size_t>(at - edges.begin()), from, to);
 }
 
-// Every face along the crease is one side of the surface: a regular border of three faces at each point.
+// Every face along the crease is one side of the surface: a regular border at each point.
 template <class Scheme, class Real>
 void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, const Evaluated<Real>& out,
                                            Index e, const Pace& pace) const {
@@ -86,31 +117,30 @@ void BaseEdges<Scheme, Real>::limit_crease(Index level, const Real* values, cons
       const Index h = half_edges[s];
       const bool forward = net_.topology().corner_vertex(h) == low;
       const Count p = forward ? k : n - k;  // from the half-edge's own start
-      const Real* ring[4] = {at(forward ? ahead : behind), at(numbering.beside(h, p)),
-                             at(numbering.beside(h, p - 1)), at(forward ? behind : ahead)};
+      const auto ring = numbering.ring_beside(h, p);
       Frame<Real> frame;
       for (int c = 0; c < 3; ++c) {
-        frame.u[c] = ring[0][c] - ring[3][c];
+        frame.u[c] = at(ring.edges.front())[c] - at(ring.edges.back())[c];
         frame.v[c] = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-          frame.v[c] += static_cast<Real>(across.edges[i]) * (ring[i][c] - at(point)[c]);
+        const auto add = [&](double weight, Index neighbour) {
+          frame.v[c] += static_cast<Real>(weight) * (at(neighbour)[c] - at(point)[c]);
+        };
+        for (std::size_t i = 0; i < ring.edges.size(); ++i) add(across.edges[i], ring.edges[i]);
+        for (std::size_t i = 0; i < ring.opposite.size(); ++i) add(across.faces[i], ring.opposite[i]);
       }
       if (set_normal(frame)) {
         frames.add(frame);
         continue;
       }
-      Ring<Real> whole{.width = 3,
-                       .center = {at(point), at(point) + 3},
-                       .neighbors = {},
-                       .vertex_sharpness = 0,
-                       .edge_sharpness = {kInfiniteSharpness, 0, 0, kInfiniteSharpness},
-                       .around = {},
-                       .far_child = {},
-                       .wedges = {{0, 1}, {1, 2}, {2, 3}},
-                       .sector_edges = {0, 1, 2, 3},
-                       .sectors = {{.begin = 0, .end = 4, .closed = false}}};
-      for (const Real* neighbour : ring)
-        whole.neighbors.insert(whole.neighbors.end(), neighbour, neighbour + 3);
+      Ring<Real> whole;
+      whole.center = {at(point), at(point) + 3};
+      whole.edge_sharpness.assign(ring.edges.size(), 0.0f);
+      whole.edge_sharpness.front() = whole.edge_sharpness.back() = kInfiniteSharpness;
+      whole.set_fan(Scheme::regular_valence / 2, false);
+      for (const Index neighbour : ring.edges)
+        whole.neighbors.insert(whole.neighbors.end(), at(neighbour), at(neighbour) + 3);
+      for (const Index neighbour : ring.opposite)
+        whole.opposite.insert(whole.opposite.end(), at(neighbour), at(neighbour) + 3);
       frames.add(LimitRing<Scheme, Real>(scheme_, net_.crease_method(), std::move(whole)).frames()[0]);
     }
     write_frames(frames, out, point);
@@ -125,20 +155,13 @@ void BaseEdges<Scheme, Real>::limit_semi_sharp(Index level, std::size_t position
   const Numbering numbering(net_.topology(), level);
   for (Count k = 1; k < segments(level); ++k) {
     const Index point = numbering.along(e, k);
-    Ring<Real> ring;
-    ring.width = width_;
-    const auto append = [&](std::vector<Real>& to, Count p) {
-      to.insert(to.end(), values + p * width_, values + (p + 1) * width_);
-    };
-    append(ring.center, point);
-    for (const Index p : numbering.ring_on_edge(e, k)) append(ring.neighbors, p);
-    ring.edge_sharpness = {semi.segment(position, k), 0, 0, semi.segment(position, k - 1), 0, 0};
+    Ring<Real> ring = regular_ring(net_.topology(), level, values, width_, point);
+    const auto sharp = on_segments<Scheme>(semi.segment(position, k), semi.segment(position, k - 1));
+    ring.edge_sharpness.assign(sharp.begin(), sharp.end());
     if (net_.crease_method() == CreaseMethod::chaikin) ring.around = decay_sums(ring.edge_sharpness);
-    ring.far_child = {net_.segment_sharpness(level + 1, e, 2 * k + 1), 0, 0,
-                      net_.segment_sharpness(level + 1, e, 2 * k - 2), 0, 0};
-    ring.wedges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}};
-    ring.sector_edges = {0, 1, 2, 3, 4, 5};
-    ring.sectors = {{0, 6, true}};
+    const auto far_child = on_segments<Scheme>(net_.segment_sharpness(level + 1, e, 2 * k + 1),
+                                               net_.segment_sharpness(level + 1, e, 2 * k - 2));
+    ring.far_child.assign(far_child.begin(), far_child.end());
     const LimitRing<Scheme, Real> limit(scheme_, net_.crease_method(), std::move(ring));
     if (out.limits != nullptr) std::ranges::copy(limit.position(), out.limits + Count{point} * width_);
     if (!out.wants_frames()) continue;

@@ -1,11 +1,11 @@
 #pragma once
 // What is not plain along base edges: the points of semi-sharp ones, and limits where the surface is creased.
-// All else about edges are inner loops (core/engine/tri_grid/kernels).
+// All else about edges are inner loops (the kernels of the engine).
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/engine/grid/evaluated.h"
 #include "core/engine/net.h"
-#include "core/engine/tri_grid/evaluate.h"
 #include "core/limit/limit.h"
 
 namespace subdivd {
@@ -13,7 +13,10 @@ namespace subdivd {
 template <class Scheme, class Real>
 class BaseEdges {
  public:
-  BaseEdges(const Net& net, const Scheme& scheme, Index width) : net_(net), scheme_(scheme), width_(width) {}
+  using Faces = FacesOf<Scheme>;
+
+  BaseEdges(const Net<Faces>& net, const Scheme& scheme, Index width)
+      : net_(net), scheme_(scheme), width_(width) {}
 
   // Overwrites, at level + 1, the points inside those of the base edges [begin, end) that are semi-sharp at
   // `level`.
@@ -30,7 +33,9 @@ class BaseEdges {
   void limit_semi_sharp(Index level, std::size_t position, const Real* values,
                         const Evaluated<Real>& out) const;
 
-  const Net& net_;
+  static constexpr bool kHasFacePoints = Scheme::split == Split::quads;
+
+  const Net<Faces>& net_;
   Scheme scheme_;
   Index width_;
 };

@@ -7,8 +7,8 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
+#include "core/engine/grid/evaluated.h"
 #include "core/engine/net.h"
-#include "core/engine/tri_grid/evaluate.h"
 #include "core/limit/limit.h"
 
 namespace subdivd {
@@ -16,14 +16,16 @@ namespace subdivd {
 template <class Scheme, class Real>
 class BaseVertices {
  public:
-  BaseVertices(const Net& net, const Scheme& scheme, Index width, Smoothing smoothing);
+  using Faces = FacesOf<Scheme>;
+
+  BaseVertices(const Net<Faces>& net, const Scheme& scheme, Index width, Smoothing smoothing);
 
   // The values at level + 1, from those of `level`, of those of the base vertices [begin, end) that inner
-  // loops (core/engine/tri_grid/kernels) leave alone; overwrites what they write of unsettled ones. Both
+  // loops (the kernels of the engine) leave alone; overwrites what they write of unsettled ones. Both
   // arrays in the closed-form numbering. Not for linear smoothing.
   void refine(Index level, const Real* from, Real* to, Index begin, Index end, const Pace& pace) const;
-  // Per valence up to Net::kListedValence, of those that the net has: weight of the vertex, of each
-  // neighbour.
+  // Per valence up to kListedValence, of those that the net has: weight of the vertex, of each neighbour on an edge,
+  // and where faces are quads of each vertex opposite to it in one.
   std::vector<Real> smooth_masks() const;
 
   // The same for limits and frames. Not for linear smoothing either. prepare_limits comes first, once.
@@ -31,7 +33,8 @@ class BaseVertices {
   void limit(Index level, const Real* values, const Evaluated<Real>& out, Index begin, Index end,
              const Pace& pace) const;
   std::vector<Real> limit_masks() const;
-  // Per valence up to Net::kListedValence, as many pairs of weights of the neighbours in the two tangents.
+  // Per valence up to kListedValence, as many pairs of weights of the neighbours in the two tangents; where faces are
+  // quads each pair is followed by that of the vertex opposite in the face behind the edge.
   std::vector<Real> tangent_masks() const;
 
   // The frame of a smooth vertex, the long way.
@@ -48,9 +51,12 @@ class BaseVertices {
     return net_.topology().vertex_count() + e * (n - 1) + (ends[0] == v ? 0 : n - 2);
   }
   VertexMask smooth_mask(Index valence) const;
-  void refine_special(Count n, const Real* from, Real* to, Index v, const Pace& pace) const;
   void refine_unsettled(Index level, const Real* from, Real* to, Index v, const Pace& pace) const;
-  void weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out, const Pace& pace) const;
+  // What a vertex mask's faces are: their points, or the vertices opposite to v in them.
+  enum class FaceTerm { points, opposite };
+  void weigh(Index level, const Real* from, Index v, const VertexMask& mask, FaceTerm term, Real* out,
+             const Pace& pace) const;
+  void refine_special(Index level, const Real* from, Real* to, Index v, const Pace& pace) const;
   // Calls f(v) for those in [begin, end) of ascending vertices.
   template <class F>
   static void for_each_in(std::span<const Index> vertices, Index begin, Index end, F&& f) {
@@ -63,18 +69,18 @@ class BaseVertices {
                      const Pace& pace) const;
   Ring<Real> ring(Index level, const Real* values, Index v, const Pace& pace) const;
 
-  const Net& net_;
+  static constexpr bool kHasFacePoints = Scheme::split == Split::quads;
+  static constexpr Index kWeights = kHasFacePoints ? 3 : 2;
+  static void put_weights(const VertexMask& mask, FaceTerm term, Index n, Real* out);
+
+  const Net<Faces>& net_;
   Scheme scheme_;
   Index width_;
   bool linear_;
   VertexMask crease_;
-  std::array<VertexMask, Net::kListedValence + 1> smooth_;  // of the net's valences
+  std::array<VertexMask, kListedValence + 1> smooth_;  // of the net's valences
   // Under Chaikin's rule, per unsettled vertex of the mesh: how its edges decay. For limits.
   std::vector<std::vector<DecaySum>> decay_sums_;
 };
-
-// Writes what `out` asks for of one vertex's frames.
-template <class Real>
-void write_frames(const FrameMean<Real>& frames, const Evaluated<Real>& out, Count vertex);
 
 }  // namespace subdivd

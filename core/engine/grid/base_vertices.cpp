@@ -1,20 +1,14 @@
-#include "core/engine/tri_grid/base_vertices.h"
+#include "core/engine/grid/base_vertices.h"
 
 #include <algorithm>
 
+#include "core/lattice/quads.h"
 #include "core/lattice/split.h"
 
 namespace subdivd {
 
-template <class Real>
-void write_frames(const FrameMean<Real>& frames, const Evaluated<Real>& out, Count vertex) {
-  if (out.tangents_u != nullptr) std::copy_n(frames.first().u, 3, out.tangents_u + 3 * vertex);
-  if (out.tangents_v != nullptr) std::copy_n(frames.first().v, 3, out.tangents_v + 3 * vertex);
-  if (out.normals != nullptr) frames.normal(out.normals + 3 * vertex);
-}
-
 template <class Scheme, class Real>
-BaseVertices<Scheme, Real>::BaseVertices(const Net& net, const Scheme& scheme, Index width,
+BaseVertices<Scheme, Real>::BaseVertices(const Net<Faces>& net, const Scheme& scheme, Index width,
                                          Smoothing smoothing)
     : net_(net), scheme_(scheme), width_(width), linear_(smoothing == Smoothing::linear) {
   for (const Index n : net.valences())
@@ -25,7 +19,7 @@ BaseVertices<Scheme, Real>::BaseVertices(const Net& net, const Scheme& scheme, I
 
 template <class Scheme, class Real>
 VertexMask BaseVertices<Scheme, Real>::smooth_mask(Index valence) const {
-  if (valence <= Net::kListedValence) return smooth_[valence];
+  if (valence <= kListedValence) return smooth_[valence];
   return scheme_.vertex_mask({valence, net_.crease_method(), 0, 0, {}, {}});
 }
 
@@ -41,11 +35,13 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
 }
 
 // Every edge's neighbour in the order of the edges around v, then the crease, then the vertex itself: the
-// order of the plain engine, to the bit.
+// order of the plain engine, to the bit. Faces come last.
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const VertexMask& mask, Real* out,
-                                       const Pace& pace) const {
-  const auto edges = net_.topology().vertex_edges(v);
+void BaseVertices<Scheme, Real>::weigh(Index level, const Real* from, Index v, const VertexMask& mask,
+                                       FaceTerm term, Real* out, const Pace& pace) const {
+  const auto& topology = net_.topology();
+  const Count n = segments(level);
+  const auto edges = topology.vertex_edges(v);
   std::fill_n(out, width_, Real(0));
   const auto add = [&](double weight, Count point) {
     const Real* at = from + point * width_;
@@ -59,10 +55,25 @@ void BaseVertices<Scheme, Real>::weigh(Count n, const Real* from, Index v, const
   if (mask.crease != 0)
     for (const Index end : mask.crease_ends) add(mask.crease, beside(n, edges[end], v));
   add(mask.self, v);
+  if constexpr (kHasFacePoints) {
+    if (mask.face == 0) return;
+    const Numbering<Quads> numbering(topology, level);
+    for (const Index h : topology.vertex_corners(v)) {
+      pace.spend(4 + width_);
+      if (term == FaceTerm::opposite) {
+        add(mask.face, numbering.opposite(h));
+        continue;
+      }
+      const Index along[2] = {topology.half_edge_edge(h), topology.half_edge_edge(Quads::prev(h))};
+      for (const Count point :
+           {Count{v}, beside(n, along[0], v), Count{numbering.opposite(h)}, beside(n, along[1], v)})
+        add(mask.face / 4, point);
+    }
+  }
 }
 
 template <class Scheme, class Real>
-void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real* to, Index v,
+void BaseVertices<Scheme, Real>::refine_special(Index level, const Real* from, Real* to, Index v,
                                                 const Pace& pace) const {
   const VertexRule rule = net_.vertex_rules()[v];
   VertexMask mask;  // v stays
@@ -72,13 +83,13 @@ void BaseVertices<Scheme, Real>::refine_special(Count n, const Real* from, Real*
     const auto ends = crease_edges(v);
     mask = {crease_.self, crease_.each, crease_.crease, {ends[0], ends[1]}};
   }
-  weigh(n, from, v, mask, to + Count{v} * width_, pace);
+  weigh(level, from, v, mask, FaceTerm::points, to + Count{v} * width_, pace);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from, Real* to, Index v,
                                                   const Pace& pace) const {
-  const Topology<Triangles>& topology = net_.topology();
+  const Topology<Faces>& topology = net_.topology();
   if (net_.vertex_rules()[v] == VertexRule::corner) return;
   std::vector<float> sharpness, child;
   for (const Index e : topology.vertex_edges(v)) {
@@ -89,48 +100,56 @@ void BaseVertices<Scheme, Real>::refine_unsettled(Index level, const Real* from,
   const float own = net_.semi_sharp(level).vertex(v);
   const VertexMask mask = scheme_.vertex_mask({static_cast<Index>(topology.vertex_corners(v).size()),
                                                net_.crease_method(), own, decay(own), sharpness, child});
-  weigh(segments(level), from, v, mask, to + Count{v} * width_, pace);
+  weigh(level, from, v, mask, FaceTerm::points, to + Count{v} * width_, pace);
 }
 
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::refine(Index level, const Real* from, Real* to, Index begin, Index end,
                                         const Pace& pace) const {
   for_each_in(net_.special_vertices(), begin, end,
-              [&](Index v) { refine_special(segments(level), from, to, v, pace); });
+              [&](Index v) { refine_special(level, from, to, v, pace); });
   for_each_in(net_.unsettled_vertices(level), begin, end,
               [&](Index v) { refine_unsettled(level, from, to, v, pace); });
 }
 
+// The point of a face of v is the mean of v, the ends of two edges and the vertex opposite: a smooth vertex has each
+// edge in two faces.
+template <class Scheme, class Real>
+void BaseVertices<Scheme, Real>::put_weights(const VertexMask& mask, FaceTerm term, Index n, Real* out) {
+  const double quarter = term == FaceTerm::points ? mask.face / 4 : 0;
+  out[0] = static_cast<Real>(mask.self + n * quarter);
+  out[1] = static_cast<Real>(mask.each + 2 * quarter);
+  if (kHasFacePoints) out[2] = static_cast<Real>(term == FaceTerm::points ? quarter : mask.face);
+}
+
 template <class Scheme, class Real>
 std::vector<Real> BaseVertices<Scheme, Real>::smooth_masks() const {
-  std::vector<Real> masks(2 * smooth_.size(), Real(0));
-  for (const Index n : net_.valences()) {
-    masks[2 * n] = static_cast<Real>(smooth_[n].self);
-    masks[2 * n + 1] = static_cast<Real>(smooth_[n].each);
-  }
+  std::vector<Real> masks(kWeights * smooth_.size(), Real(0));
+  for (const Index n : net_.valences()) put_weights(smooth_[n], FaceTerm::points, n, &masks[kWeights * n]);
   return masks;
 }
 
 template <class Scheme, class Real>
 std::vector<Real> BaseVertices<Scheme, Real>::limit_masks() const {
-  std::vector<Real> masks(2 * smooth_.size(), Real(0));
-  for (const Index n : net_.valences()) {
-    const VertexMask mask = scheme_.smooth_limit_mask(n);
-    masks[2 * n] = static_cast<Real>(mask.self);
-    masks[2 * n + 1] = static_cast<Real>(mask.each);
-  }
+  std::vector<Real> masks(kWeights * smooth_.size(), Real(0));
+  for (const Index n : net_.valences())
+    put_weights(scheme_.smooth_limit_mask(n), FaceTerm::opposite, n, &masks[kWeights * n]);
   return masks;
 }
 
 template <class Scheme, class Real>
 std::vector<Real> BaseVertices<Scheme, Real>::tangent_masks() const {
-  constexpr std::size_t kRow = 2 * Net::kListedValence;
+  constexpr std::size_t kPerEdge = kHasFacePoints ? 4 : 2, kRow = kPerEdge * kListedValence;
   std::vector<Real> weights(kRow * smooth_.size(), Real(0));
   for (const Index n : net_.valences()) {
     const RingMask u = scheme_.smooth_tangent_u(n), v = scheme_.smooth_tangent_v(n);
     for (Index k = 0; k < n; ++k) {
-      weights[kRow * n + 2 * k] = static_cast<Real>(u.edges[k]);
-      weights[kRow * n + 2 * k + 1] = static_cast<Real>(v.edges[k]);
+      Real* const at = &weights[kRow * n + kPerEdge * k];
+      at[0] = static_cast<Real>(u.edges[k]);
+      at[1] = static_cast<Real>(v.edges[k]);
+      if (!kHasFacePoints) continue;
+      at[2] = static_cast<Real>(u.faces[k]);
+      at[3] = static_cast<Real>(v.faces[k]);
     }
   }
   return weights;
@@ -139,7 +158,7 @@ std::vector<Real> BaseVertices<Scheme, Real>::tangent_masks() const {
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::prepare_limits(Index level, const Pace& pace) {
   if (net_.crease_method() != CreaseMethod::chaikin) return;
-  const Net& mesh = net_.mesh();
+  const Net<Faces>& mesh = net_.mesh();
   decay_sums_.clear();
   for (const Index v : mesh.unsettled_vertices(level)) {
     std::vector<float> around;
@@ -154,7 +173,7 @@ void BaseVertices<Scheme, Real>::prepare_limits(Index level, const Pace& pace) {
 template <class Scheme, class Real>
 Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Index v,
                                             const Pace& pace) const {
-  const Topology<Triangles>& topology = net_.topology();
+  const Topology<Faces>& topology = net_.topology();
   const Count n = segments(level);
   Ring<Real> ring;
   ring.width = width_;
@@ -172,10 +191,15 @@ Ring<Real> BaseVertices<Scheme, Real>::ring(Index level, const Real* values, Ind
     ring.edge_sharpness.push_back(net_.sharpness_beside(level, e, v));
   }
   ring.set_faces(topology, v, pace);
+  if constexpr (kHasFacePoints)
+    for (const Index h : topology.vertex_corners(v)) {
+      pace.spend(4 + width_);
+      append(ring.opposite, Numbering(topology, level).opposite(h));
+    }
   if (ring.wedges.empty()) return ring;
 
   if (!decay_sums_.empty()) {
-    const Net& mesh = net_.mesh();
+    const Net<Faces>& mesh = net_.mesh();
     const Index mesh_vertex = mesh.topology().corner_vertex(topology.vertex_corners(v)[0]);
     const auto unsettled = mesh.unsettled_vertices(level);
     const auto at = std::ranges::lower_bound(unsettled, mesh_vertex);
@@ -213,7 +237,7 @@ void BaseVertices<Scheme, Real>::limit_special(Index level, const Real* values, 
       const auto ends = crease_edges(v);
       mask = scheme_.crease_limit_mask(ends[0], ends[1]);
     }
-    weigh(segments(level), values, v, mask, out.limits + Count{v} * width_, pace);
+    weigh(level, values, v, mask, FaceTerm::opposite, out.limits + Count{v} * width_, pace);
   }
   if (out.wants_frames()) limit_by_ring(level, values, out, v, true, pace);
 }
@@ -233,7 +257,5 @@ void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Ev
   template class BaseVertices<S, double>;
 SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
 #undef SUBDIVD_INSTANTIATE
-template void write_frames<float>(const FrameMean<float>&, const Evaluated<float>&, Count);
-template void write_frames<double>(const FrameMean<double>&, const Evaluated<double>&, Count);
 
 }  // namespace subdivd

@@ -1,0 +1,153 @@
+#include "core/lattice/triangle_stream.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/pace.h"
+#include "core/base/parallel.h"
+#include "core/lattice/quad_faces.h"
+#include "core/lattice/triangles.h"
+
+namespace subdivd {
+namespace {
+
+const Pace kUnlimited;
+
+using QuadsAsTriangles = QuadWriter<QuadForm::triangles>;
+
+// What a face of any writer needs in one piece, in indices.
+Count room_of(const TriangleWriter& writer) {
+  return writer.has_rows() ? writer.indices_of_row(0) + TriangleWriter::kRoomBehindRow
+                           : writer.indices_of_face();
+}
+Count room_of(const QuadsAsTriangles& writer) { return writer.indices_of_row(0); }
+
+Count room_behind(const TriangleWriter& writer) {
+  return writer.has_rows() ? TriangleWriter::kRoomBehindRow : 0;
+}
+Count room_behind(const QuadsAsTriangles&) { return 0; }
+
+Count triangles_of(Index corners) { return corners - 2; }
+
+}  // namespace
+
+TriangleStream::TriangleStream(std::shared_ptr<const Lattice> lattice, Index level,
+                               std::span<const unsigned char> holes)
+    : lattice_(std::move(lattice)), level_(level) {
+  const bool polygons = lattice_->face_size(level) == 0;
+  if (polygons)
+    holes_.assign(holes.begin(), holes.end());
+  else
+    holes_ = holes_of_grids(*lattice_, holes, kUnlimited);
+  if (polygons) {
+    for (Index f = 0; f < holes_.size(); ++f) {
+      const Count indices = 3 * triangles_of(lattice_->base_face_size(f));
+      least_room_ = std::max(least_room_, indices);
+      if (holes_[f] == 0) index_count_ += indices;
+    }
+    return;
+  }
+  const auto faces = static_cast<Count>(std::ranges::count(holes_, 0));
+  const Index depth = level - lattice_->first_level();
+  if (lattice_->has_triangles()) {
+    const TriangleWriter writer(lattice_->triangles(), depth, kUnlimited);
+    index_count_ = faces * writer.indices_of_face();
+    least_room_ = room_of(writer);
+  } else {
+    const QuadsAsTriangles writer(lattice_->quads(), depth, kUnlimited);
+    index_count_ = faces * writer.indices_of_face();
+    least_room_ = room_of(writer);
+  }
+}
+
+Count TriangleStream::least_room() const { return least_room_; }
+
+// A topology, if that is what the connectivity belongs to: corners, their edges and their places around
+// vertices; ends, sides, kind and two places of every edge, with room for half as many more; two offsets of
+// every vertex.
+Count TriangleStream::held_bytes() const {
+  if (!lattice_) return 0;
+  constexpr Count kOfCorner = 12, kOfEdge = 34, kOfVertex = 16;
+  const auto bytes_of = [](const auto& connectivity) {
+    return kOfCorner * connectivity.corner_vertices().size() + kOfEdge * connectivity.edge_count() +
+           kOfVertex * connectivity.vertex_count();
+  };
+  Count bytes = holes_.size();
+  bytes += lattice_->has_triangles() ? bytes_of(lattice_->triangles()) : bytes_of(lattice_->quads());
+  if (lattice_->shared_polygons()) bytes += bytes_of(*lattice_->shared_polygons());
+  return bytes;
+}
+
+template <class Writer>
+Count TriangleStream::next_of_grids(const Writer& writer, std::span<Index> out) {
+  const Count n = segments(level_ - lattice_->first_level()), behind = room_behind(writer);
+  Count written = 0;
+  const auto room = [&] { return out.size() - written; };
+  for (; face_ < holes_.size(); ++face_) {
+    if (holes_[face_] != 0) continue;
+    if (row_ == 0 && room() >= writer.indices_of_face() + behind) {
+      writer.write(face_, &out[written]);
+      written += writer.indices_of_face();
+      continue;
+    }
+    if (!writer.has_rows()) break;
+    Count end = row_, size = 0;
+    while (end < n && room() >= size + writer.indices_of_row(end) + behind)
+      size += writer.indices_of_row(end++);
+    if (end > row_) writer.write_rows(face_, row_, end, &out[written]);
+    written += size;
+    row_ = end % n;
+    if (end < n) break;
+  }
+  return written;
+}
+
+Count TriangleStream::next_of_polygons(std::span<Index> out) {
+  const auto corners = lattice_->base_corners();
+  const Connectivity<Polygons>& polygons = *lattice_->shared_polygons();
+  Count written = 0;
+  for (; face_ < holes_.size(); ++face_) {
+    if (holes_[face_] != 0) continue;
+    const Index begin = polygons.faces().begin(face_), size = lattice_->base_face_size(face_);
+    if (out.size() - written < 3 * triangles_of(size)) break;
+    for (Index k = 1; k + 1 < size; ++k)
+      for (const Index corner : {Index{0}, k, k + 1}) out[written++] = corners[begin + corner];
+  }
+  return written;
+}
+
+Count TriangleStream::next(std::span<Index> out) {
+  if (holes_.empty()) return 0;
+  if (lattice_->face_size(level_) == 0) return next_of_polygons(out);
+  const Index depth = level_ - lattice_->first_level();
+  if (lattice_->has_triangles())
+    return next_of_grids(TriangleWriter(lattice_->triangles(), depth, kUnlimited), out);
+  return next_of_grids(QuadsAsTriangles(lattice_->quads(), depth, kUnlimited), out);
+}
+
+Result<Buffer<Index>> TriangleStream::all(Index threads, const Budget& budget) const {
+  Buffer<Index> indices(index_count_);
+  if (holes_.empty()) return indices;
+  if (lattice_->has_triangles()) {
+    if (auto done = write_triangles(lattice_->triangles(), level_, holes_, indices.data(), threads, budget);
+        !done)
+      return std::move(done).error();
+    return indices;
+  }
+  if (lattice_->face_size(level_) == 0) {
+    TriangleStream whole(lattice_, level_, holes_);
+    whole.next(indices);
+    return indices;
+  }
+  const auto written = Team::run(1, budget, [&](Worker& worker) {
+    const Pace pace(worker);
+    const QuadsAsTriangles writer(lattice_->quads(), level_ - lattice_->first_level(), pace);
+    Index* at = indices.data();
+    for (Index face = 0; face < holes_.size(); ++face)
+      if (holes_[face] == 0) at = writer.write(face, at);
+  });
+  if (!written) return written.error();
+  return indices;
+}
+
+}  // namespace subdivd

@@ -1,0 +1,171 @@
+#include "core/refine/refinable.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/engine/quad_grid/evaluate.h"
+#include "core/engine/tri_grid/evaluate.h"
+
+namespace subdivd {
+namespace {
+
+// While the ring of a hub is looked at, which is as large as the mesh.
+constexpr Count kHub = 4096, kBytesPerRingCorner = 176;
+// Per semi-sharp edge while nets are built.
+constexpr Count kSemiSharpBytes = 64;
+
+template <class Faces>
+Count ring_bytes(const Topology<Faces>& topology, const Pace& pace) {
+  Count corners = 0;
+  pace.for_each(topology.vertex_count(), [&](Index v) {
+    if (const Count here = topology.vertex_corners(v).size(); here > kHub) corners += here;
+  });
+  return corners * kBytesPerRingCorner;
+}
+
+template <class Faces>
+Count resident_bytes_of(const Net<Faces>& net) {
+  Count bytes = net.resident_bytes();
+  if (net.crease_method() == CreaseMethod::chaikin)
+    bytes += chaikin_bytes(net.semi_sharp(0).edges.size(), net.max_level());
+  return bytes;
+}
+
+// The two levels below the last, the control values, and the rules of edges where all are linear.
+template <class Faces>
+Count evaluation_bytes_of(const Net<Faces>& net, Index level, Index width, Count scalar_bytes, bool limits,
+                          const Pace& pace) {
+  Count values = net.value_count(0);
+  for (Index below = 1; below <= 2 && below < level; ++below) values += net.value_count(level - below);
+  return values * width * scalar_bytes + net.topology().edge_count() +
+         (limits ? ring_bytes(net.topology(), pace) : 0);
+}
+
+template <class Faces>
+class OfGrids final : public Refinable {
+ public:
+  explicit OfGrids(std::shared_ptr<const Net<Faces>> net)
+      : Refinable(std::make_shared<const Lattice>(
+            std::shared_ptr<const Connectivity<Faces>>(net->shared_topology()))),
+        net_(std::move(net)) {}
+
+  std::span<const Index> value_indices() const override { return net_->value_indices(); }
+  Result<void> evaluate(Index level, Buffer<float>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<float>& out, Index threads, const Budget& budget) const override {
+    return subdivd::evaluate<float>(*net_, level, std::move(control), width, smoothing, out, threads, budget);
+  }
+  Result<void> evaluate(Index level, Buffer<double>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<double>& out, Index threads, const Budget& budget) const override {
+    return subdivd::evaluate<double>(*net_, level, std::move(control), width, smoothing, out, threads,
+                                     budget);
+  }
+
+  Count resident_bytes() const override { return resident_bytes_of(*net_); }
+  Count building_bytes() const override {
+    return net_->building_bytes() + kSemiSharpBytes * net_->semi_sharp(0).edges.size();
+  }
+  Count evaluation_bytes(Index level, Index width, Count scalar_bytes, bool limits,
+                         const Pace& pace) const override {
+    return evaluation_bytes_of(*net_, level, width, scalar_bytes, limits, pace);
+  }
+
+ private:
+  std::shared_ptr<const Net<Faces>> net_;
+};
+
+class OfPolygons final : public Refinable {
+ public:
+  OfPolygons(FirstStep step, std::shared_ptr<const Net<Quads>> net)
+      : Refinable(std::make_shared<const Lattice>(step.polygons, step.quads)),
+        step_(std::move(step)),
+        net_(std::move(net)) {}
+
+  std::span<const Index> value_indices() const override { return step_.values; }
+  Result<void> evaluate(Index level, Buffer<float>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<float>& out, Index threads, const Budget& budget) const override {
+    return evaluate_all(level, std::move(control), width, smoothing, out, threads, budget);
+  }
+  Result<void> evaluate(Index level, Buffer<double>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<double>& out, Index threads, const Budget& budget) const override {
+    return evaluate_all(level, std::move(control), width, smoothing, out, threads, budget);
+  }
+
+  Count resident_bytes() const override {
+    const Connectivity<Polygons>& polygons = *step_.polygons;
+    constexpr Count kOfCorner = 20, kOfEdge = 34, kOfVertex = 24, kOfWeight = 12;
+    return resident_bytes_of(*net_) + kOfCorner * polygons.corner_vertices().size() +
+           kOfEdge * polygons.edge_count() + kOfVertex * polygons.vertex_count() +
+           kOfWeight * step_.rows.columns.size() + sizeof(Count) * step_.rows.offsets.size();
+  }
+  // The plain engine's adjacency, and its rows while they grow.
+  Count building_bytes() const override {
+    const Connectivity<Polygons>& polygons = *step_.polygons;
+    return net_->building_bytes() + kSemiSharpBytes * net_->semi_sharp(0).edges.size() +
+           64 * polygons.corner_vertices().size() + 24 * step_.rows.columns.size();
+  }
+  Count evaluation_bytes(Index level, Index width, Count scalar_bytes, bool limits,
+                         const Pace& pace) const override {
+    Count bytes =
+        evaluation_bytes_of(*net_, std::max<Index>(level, 1) - 1, width, scalar_bytes, limits, pace) +
+        step_.polygons->vertex_count() * width * scalar_bytes;
+    if (level == 0 && limits) bytes += 4 * net_->value_count(0) * width * scalar_bytes;
+    return bytes;
+  }
+
+ private:
+  template <class Real>
+  Result<void> evaluate_all(Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
+                            const Evaluated<Real>& out, Index threads, const Budget& budget) const {
+    return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+      if (level == 0 && out.values != nullptr) std::copy(control.begin(), control.end(), out.values);
+      if (level == 0 && !out.wants_limits()) return {};
+      Buffer<Real> values = apply<Real>(step_, control, width, smoothing == Smoothing::linear, pace);
+      if (level == 0) return limits_of_vertices(std::move(values), width, smoothing, out, threads, budget);
+      control = {};
+      return subdivd::evaluate<Real>(*net_, level - 1, std::move(values), width, smoothing, out, threads,
+                                     budget);
+    });
+  }
+
+  // Of the polygons' own vertices, which are the first of the quads': their limits outlive the step.
+  template <class Real>
+  Result<void> limits_of_vertices(Buffer<Real> values, Index width, Smoothing smoothing,
+                                  const Evaluated<Real>& out, Index threads, const Budget& budget) const {
+    Evaluated<Real> all;
+    std::vector<std::pair<Buffer<Real>, Real*>> arrays;
+    arrays.reserve(4);
+    const auto with_room = [&](Real* to) -> Real* {
+      if (to == nullptr) return nullptr;
+      arrays.emplace_back(Buffer<Real>(net_->value_count(0) * width), to);
+      return arrays.back().first.data();
+    };
+    all.limits = with_room(out.limits);
+    all.tangents_u = with_room(out.tangents_u);
+    all.tangents_v = with_room(out.tangents_v);
+    all.normals = with_room(out.normals);
+    if (auto done =
+            subdivd::evaluate<Real>(*net_, 0, std::move(values), width, smoothing, all, threads, budget);
+        !done)
+      return done;
+    for (const auto& [from, to] : arrays)
+      std::copy_n(from.begin(), Count{step_.polygons->vertex_count()} * width, to);
+    return {};
+  }
+
+  FirstStep step_;
+  std::shared_ptr<const Net<Quads>> net_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Triangles>> net) {
+  return std::make_shared<const OfGrids<Triangles>>(std::move(net));
+}
+std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Quads>> net) {
+  return std::make_shared<const OfGrids<Quads>>(std::move(net));
+}
+std::shared_ptr<const Refinable> make_refinable(FirstStep step, std::shared_ptr<const Net<Quads>> net) {
+  return std::make_shared<const OfPolygons>(std::move(step), std::move(net));
+}
+
+}  // namespace subdivd
