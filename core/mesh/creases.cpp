@@ -78,19 +78,24 @@ std::vector<unsigned char> are_edges(Index vertex_count, std::span<const Index> 
   return found;
 }
 
+namespace {
+
+// A pair whose lower vertex has no more edges than this is looked for among them; at hubs that could be a
+// million steps for each of a million pairs.
+constexpr std::size_t kFewEdges = 32;
+
+// Sets, in `found`, the edges of those pairs whose lower vertex is a hub.
 template <class Faces>
-std::vector<Index> edges_between(const Topology<Faces>& topology, std::span<const VertexPair> pairs,
-                                 const Pace& pace) {
-  std::vector<Index> found;
-  pace.fill(found, pairs.size(), kNoIndex);
+void find_at_hubs(const Topology<Faces>& topology, std::span<const VertexPair> pairs,
+                  std::vector<Index>& found, const Pace& pace) {
   const PairsByVertex wanted(topology.vertex_count(), pairs, pace);
   std::vector<Index> edge_to;  // per vertex the edge that last was found to lead to it
   pace.fill(edge_to, topology.vertex_count(), kNoIndex);
   for (Index v = 0; v < topology.vertex_count(); ++v) {
     const auto here = wanted.at(v);
-    pace.spend(1);
-    if (here.empty()) continue;
     const auto edges = topology.vertex_edges(v);
+    pace.spend(1);
+    if (here.empty() || edges.size() <= kFewEdges) continue;
     pace.for_each(edges.size(), [&](std::size_t k) { edge_to[topology.other_end(edges[k], v)] = edges[k]; });
     pace.for_each(here.size(), [&](std::size_t k) {
       const auto [a, b] = pairs[here[k]];
@@ -99,6 +104,28 @@ std::vector<Index> edges_between(const Topology<Faces>& topology, std::span<cons
         found[here[k]] = e;
     });
   }
+}
+
+}  // namespace
+
+template <class Faces>
+std::vector<Index> edges_between(const Topology<Faces>& topology, std::span<const VertexPair> pairs,
+                                 const Pace& pace) {
+  std::vector<Index> found;
+  pace.fill(found, pairs.size(), kNoIndex);
+  bool any_hub = false;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [a, b] = pairs[k];
+    const VertexPair ends{std::min(a, b), std::max(a, b)};
+    pace.spend(8);
+    if (ends[1] >= topology.vertex_count()) continue;
+    const auto edges = topology.vertex_edges(ends[0]);
+    any_hub |= edges.size() > kFewEdges;
+    if (edges.size() > kFewEdges) continue;
+    for (const Index e : edges)
+      if (topology.edge_vertices(e) == ends) found[k] = e;
+  }
+  if (any_hub) find_at_hubs(topology, pairs, found, pace);
   return found;
 }
 

@@ -267,7 +267,8 @@ void Edges::attach(Index h, Index from, Index e) {
 void Edges::set_kinds(const Pace& pace) {
   kinds.resize(sides.size());
   pace.for_each(kinds.size(), [&](std::size_t e) {
-    kinds[e] = sides[e][0] == kNoIndex || sides[e][1] == kNoIndex ? EdgeKind::border : EdgeKind::manifold;
+    // One comparison and no jump: kNoIndex is above all half-edges.
+    kinds[e] = std::max(sides[e][0], sides[e][1]) == kNoIndex ? EdgeKind::border : EdgeKind::manifold;
   });
   if (non_manifold.empty()) return;
   pace.for_each(non_manifold.size(), [&](std::size_t k) { kinds[non_manifold[k]] = EdgeKind::non_manifold; });

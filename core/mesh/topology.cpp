@@ -127,16 +127,14 @@ void Topology<Faces>::count_edges(std::span<Index> first_corners, const Pace& pa
 template <class Faces>
 class Topology<Faces>::Walk {
  public:
-  Walk(Topology& topology, Index v, Index start)
-      : faces_(&topology.faces_),
-        edge_of_(topology.edges_.of_half_edges.data()),
-        sides_(topology.edges_.sides.data()),
+  Walk(Topology& topology, std::span<const Index> next_corners, Index v, Index start)
+      : edge_of_(topology.edges_.of_half_edges.data()),
+        next_corners_(next_corners.data()),
         corners_(topology.vertex_corners_.data() + topology.vertex_corner_offsets_[v]),
         edges_(topology.vertex_edges_.data() + topology.vertex_edge_offsets_[v]),
         all_(topology.vertex_corners(v).size()),
         start_(start),
-        at_(start),
-        edge_(edge_of_[start]) {}
+        at_(start) {}
 
   // To the end; whether it comes back to the start there and not before. It ends by counting: where a
   // corner's other side leads to is known late, and meanwhile the processor goes on to the next vertex.
@@ -179,19 +177,32 @@ class Topology<Faces>::Walk {
   }
   [[gnu::always_inline]] void step() {
     corners_[met_] = at_;
-    edges_[met_++] = edge_;
-    const Index before = faces_->prev(at_);
-    edge_ = edge_of_[before];
-    at_ = sides_[edge_][0] ^ sides_[edge_][1] ^ before;
+    edges_[met_++] = edge_of_[at_];
+    at_ = next_corners_[at_];
   }
 
-  const Faces* faces_;
-  const Index* edge_of_;
-  const std::array<Index, 2>* sides_;
+  const Index *edge_of_, *next_corners_;
   Index *corners_, *edges_;
   std::size_t all_, met_ = 0;
-  Index start_, at_, edge_;
+  Index start_, at_;
 };
+
+// Sets, for every corner of these faces, the one that follows it counter-clockwise round its vertex, across an
+// edge of two faces; of no use where the edge has others. Found before any walk: here all look-ups are under
+// way together, while those of a walk wait for one another.
+template <class Faces>
+void Topology<Faces>::find_next_corners(Range faces, std::span<Index> next_corners, const Pace& pace) const {
+  const Index* const edge_of = edges_.of_half_edges.data();
+  const std::array<Index, 2>* const sides = edges_.sides.data();
+  pace.in_blocks(faces.end - faces.begin, [&](Count begin, Count end) {
+    for (auto f = static_cast<Index>(faces.begin + begin); f < faces.begin + end; ++f) {
+      const Index first = faces_.begin(f), last = faces_.begin(f + 1);
+      Index before = last - 1;
+      for (Index h = first; h < last; before = h++)
+        next_corners[h] = sides[edge_of[before]][0] ^ sides[edge_of[before]][1] ^ before;
+    }
+  });
+}
 
 // Below this a helper is awake when the work is done.
 constexpr Index kVerticesWorthHelp = Index{1} << 15;
@@ -202,19 +213,23 @@ template <class Faces>
 void Topology<Faces>::go_round_vertices(std::span<const Index> first_corners, const Pace& pace) {
   vertex_corners_.resize(corner_vertices().size());
   vertex_edges_.resize(std::size_t{2} * edge_count());
-  if (pace.threads() == 1 || vertex_count_ < kVerticesWorthHelp)
-    return go_round_vertices(0, vertex_count_, first_corners, pace);
+  Buffer<Index> next_corners(corner_vertices().size());
+  if (pace.threads() == 1 || vertex_count_ < kVerticesWorthHelp) {
+    find_next_corners({0, faces_.count()}, next_corners, pace);
+    return go_round_vertices({0, vertex_count_}, first_corners, next_corners, pace);
+  }
   const auto done = Team::run(pace.threads(), pace.budget(), [&](Worker worker) {
-    const Range share = worker.share(vertex_count_);
-    go_round_vertices(static_cast<Index>(share.begin), static_cast<Index>(share.end), first_corners,
-                      Pace(worker));
+    find_next_corners(worker.share(faces_.count()), next_corners, Pace(worker));
+    if (!worker.meet()) return;
+    go_round_vertices(worker.share(vertex_count_), first_corners, next_corners, Pace(worker));
   });
   if (!done) throw Stopped{done.error()};
 }
 
 template <class Faces>
-void Topology<Faces>::go_round_vertices(Index begin, Index end, std::span<const Index> first_corners,
-                                        const Pace& pace) {
+void Topology<Faces>::go_round_vertices(Range vertices, std::span<const Index> first_corners,
+                                        std::span<const Index> next_corners, const Pace& pace) {
+  const auto begin = static_cast<Index>(vertices.begin), end = static_cast<Index>(vertices.end);
   const auto corners_before = [&](Index v) { return vertex_corner_offsets_[v]; };
   Index next_vertex = begin, next_corner = 0;  // at either of which the budget is polled again
   for (Index v = begin; v < end; ++v) {
@@ -224,18 +239,18 @@ void Topology<Faces>::go_round_vertices(Index begin, Index end, std::span<const 
       next_corner = corners_before(v) + static_cast<Index>(4 * Pace::kBlock);
     }
     if (first_corners[v] == kNoIndex) continue;
-    Walk one(*this, v, first_corners[v]);
+    Walk one(*this, next_corners, v, first_corners[v]);
     if (corners_before(v + 1) - corners_before(v) > Walk::kStepsPerPoll) {
       if (!one.go_on(pace)) non_manifold_vertices_[v] = 1;
       continue;
     }
     if (v + 1 < end && first_corners[v + 1] != kNoIndex) {
-      Walk other(*this, v + 1, first_corners[v + 1]);
+      Walk other(*this, next_corners, v + 1, first_corners[v + 1]);
       if (other.is_short() && Walk::go_together(one, other) && one.go_on() && other.go_on()) {
         ++v;
         continue;
       }
-      one = Walk(*this, v, first_corners[v]);
+      one = Walk(*this, next_corners, v, first_corners[v]);
     }
     if (!one.go_on()) non_manifold_vertices_[v] = 1;
   }

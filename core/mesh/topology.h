@@ -124,7 +124,9 @@ class Topology : public Connectivity<Faces> {
   void gather_non_manifold_half_edges(const Pace& pace);
   void count_edges(std::span<Index> first_corners, const Pace& pace);
   void go_round_vertices(std::span<const Index> first_corners, const Pace& pace);
-  void go_round_vertices(Index begin, Index end, std::span<const Index> first_corners, const Pace& pace);
+  void go_round_vertices(Range vertices, std::span<const Index> first_corners,
+                         std::span<const Index> next_corners, const Pace& pace);
+  void find_next_corners(Range faces, std::span<Index> next_corners, const Pace& pace) const;
   void go_round_borders(const Pace& pace);
   void list_non_manifold(const Pace& pace);
   std::span<const Index> half_edges_of_non_manifold(Index e) const;

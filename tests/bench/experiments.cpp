@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/bench/floor.h"
 #include "tests/bench/peers.h"
 #include "tests/support/allocations.h"
 
@@ -59,8 +60,8 @@ Laps timed(const char* quantity, const auto& work, double scale = 1) {
   return {{quantity, stopwatch.lap() * scale}};
 }
 
-// Arrays like the refined points, touched.
-Buffer<float> like(const Output& out) { return Buffer<float>(out.points.size(), 0.f); }
+// An array like the refined points, touched; with room for what Floor does behind its end.
+Buffer<float> like(const Output& out) { return Buffer<float>(out.points.size() + Floor::kSpare, 0.f); }
 
 }  // namespace
 
@@ -111,6 +112,12 @@ double time_total(const Case& cell, const Pace& pace, Results& results) {
   return contest.hold(pace, cell.name(), "total", results);
 }
 
+// The plan keeps its own to itself.
+Topology<Triangles> topology_of(const Case& cell) {
+  const ControlMesh& mesh = cell.workload->mesh;
+  return Topology<Triangles>(static_cast<Index>(mesh.point_count()), Triangles(mesh.face_vertex_indices));
+}
+
 double time_limits(const Case& cell, const Pace& pace, Results& results) {
   Output out(cell);
   Buffer<float> limits = like(out), normals = like(out), u = like(out), v = like(out);
@@ -140,11 +147,17 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     const double rest = stopwatch.lap();
     far.limit(out.points.data(), limits.data(), u.data(), v.data());
     const double limit = stopwatch.lap();
-    oracle::normals_of_tangents(u.size() / 3, u.data(), v.data(), normals.data());
+    oracle::normals_of_tangents(out.points.size() / 3, u.data(), v.data(), normals.data());
     const double last = stopwatch.lap();
     far.release();
     return {{"limits", limit}, {"normals", last}, {"total_limits", rest + limit + last}};
   });
+  const Plan plan = cell.plan();
+  const Topology<Triangles> topology = topology_of(cell);
+  Floor floor(topology, cell.level);
+  // `u` serves as the refined points.
+  contest.enter("floor",
+                [&] { return timed("limits", [&] { floor.limit(u, limits.data(), normals.data()); }); });
   return contest.hold(pace, cell.name(), "limits", results);
 }
 
@@ -173,6 +186,10 @@ double time_again(const Case& cell, const Pace& pace, Results& results) {
   });
   enter("Far", [&] { far.update_stencils(control.data(), out.points.data()); });
   enter("base", [&] { far.evaluate_stencils(control.data(), out.points.data()); });
+  const Topology<Triangles> topology = topology_of(cell);
+  Floor floor(topology, cell.level);
+  Buffer<float> written = like(out);
+  enter("floor", [&] { floor.refine(control, written.data()); });
   return contest.hold(pace, cell.name(), "again", results);
 }
 

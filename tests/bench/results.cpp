@@ -45,8 +45,10 @@ constexpr std::array kRatios = {
     Ratio{"total_vs_far", "total", "Far", false},
     Ratio{"total_vs_memset", "total", "memset", true},
     Ratio{"reevaluate_vs_stencils", "again", "Far", false},
+    Ratio{"reevaluate_vs_floor", "again", "floor", true},
     Ratio{"plan_vs_far_create", "plan_alone", "Far", false},
     Ratio{"limit_vs_far", "limits", "Far", false},
+    Ratio{"limit_vs_floor", "limits", "floor", true},
     Ratio{"threads2_vs_1", "threads", "base", false},
     Ratio{"http_vs_core", "http", "base", true},
     Ratio{"request_vs_warm", "request", "base", true},
@@ -55,9 +57,9 @@ constexpr std::array kRatios = {
     Ratio{"in_process_vs_warm", "in_process", "base", true},
 };
 
-constexpr std::array<std::string_view, 8> kContestants = {"ours",   "Far",    "CGAL", "OpenMesh",
-                                                          "memset", "memcpy", "base", "loopback"};
-constexpr std::array<std::string_view, 5> kRivals = {"Far", "CGAL", "OpenMesh", "memset", "base"};
+constexpr std::array<std::string_view, 9> kContestants = {"ours",   "Far",  "CGAL",  "OpenMesh", "memset",
+                                                          "memcpy", "base", "floor", "loopback"};
+constexpr std::array<std::string_view, 6> kRivals = {"Far", "CGAL", "OpenMesh", "memset", "base", "floor"};
 
 // Phases are cut differently in every library: only what all of them do as a whole is compared.
 bool is_compared(std::string_view quantity) {
@@ -65,8 +67,8 @@ bool is_compared(std::string_view quantity) {
 }
 
 bool is_ours_first(std::string_view quantity, std::string_view rival) {
-  return rival == "memset" || quantity == "http" || quantity == "memory" || quantity.starts_with("request") ||
-         quantity == "in_process";
+  return rival == "memset" || rival == "floor" || quantity == "http" || quantity == "memory" ||
+         quantity.starts_with("request") || quantity == "in_process";
 }
 
 double median_of(std::vector<double> values) {
@@ -95,7 +97,7 @@ void print_heading(std::ostream& out) {
          "(bigger is better); /N = we take N times as long as the other (smaller is better). base: see the "
          "line's name.\n"
          "In JSON: *_vs_far, *_vs_stencils, *_vs_far_create, threads2_vs_1 are xN; total_vs_memset, "
-         "http_vs_core are /N;\n"
+         "*_vs_floor, http_vs_core are /N;\n"
          "memory_vs_output is a share (0.15 = 15 %).\n\n";
   out << padded("workload", 17, false) << padded("quantity", 32, false) << padded("unit", 10, false);
   for (const std::string_view who : kContestants) out << padded(who, 10, true);

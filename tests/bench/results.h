@@ -14,7 +14,7 @@ class Results {
  public:
   // A measurement of `quantity` (a key of the table in results.cpp) on `cell` (a workload, or
   // workload.Llevel). who: "ours", "Far", "CGAL", "OpenMesh", "memset", "memcpy", "base" (what the row's
-  // label says) or "loopback".
+  // label says), "floor" or "loopback".
   void add(const std::string& cell, const std::string& quantity, const std::string& who, double value);
   std::optional<double> median(const std::string& cell, const std::string& quantity,
                                const std::string& who) const;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/thread_pool.h"
+#include "core/mesh/creases.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
@@ -193,6 +194,27 @@ TEST(Topology, edges_between_hubs_are_found_once) {
     const Topology<Triangles> topology(points, Triangles(triangles));
     ASSERT_EQ(topology.edge_count(), 201u);
     EXPECT_EQ(topology.edge_half_edges(topology.half_edge_edge(0)).size(), 100u);
+  }
+}
+
+TEST(Creases, their_edges_are_found_at_hubs_and_elsewhere) {
+  // A wheel: point 0 is a hub of a hundred edges, the others have three.
+  std::vector<Index> triangles;
+  for (Index k = 0; k < 100; ++k)
+    for (const Index v : {Index{0}, 1 + k, 1 + (k + 1) % 100}) triangles.push_back(v);
+  const Topology<Triangles> topology(103, Triangles(triangles));
+  const std::vector<VertexPair> pairs{{0, 7}, {7, 0},   {7, 8},     {8, 7},   {1, 100},
+                                      {7, 9}, {0, 101}, {101, 102}, {5, 103}, {0, kNoIndex}};
+  const std::vector<Index> found = edges_between(topology, std::span<const VertexPair>(pairs), {});
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    SCOPED_TRACE(k);
+    if (k > 4) {
+      EXPECT_EQ(found[k], kNoIndex);
+      continue;
+    }
+    ASSERT_LT(found[k], topology.edge_count());
+    EXPECT_EQ(topology.edge_vertices(found[k]),
+              (VertexPair{std::min(pairs[k][0], pairs[k][1]), std::max(pairs[k][0], pairs[k][1])}));
   }
 }
 
