@@ -28,4 +28,11 @@ struct RingMask {
   std::vector<double> edges;
 };
 
+// Point of corner k of a face of n corners, where every corner gets one: self v_k + beside (v_{k-1} + v_{k+1}) +
+// mean (v_0 + ... + v_{n-1}) / n + wave (cos(2 pi (i - k) / n) v_i summed over i) / n. In this form, and not as n
+// weights, because all corners of a face together then take time in n and not in n^2.
+struct CornerMask {
+  double self = 1, beside = 0, mean = 0, wave = 0;
+};
+
 }  // namespace subdivd

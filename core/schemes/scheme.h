@@ -17,6 +17,8 @@ namespace subdivd {
 enum class Split {
   triangles,  // a triangle into four
   quads,      // a face of n corners into n quads that meet at a point of its own
+  corners,    // a vertex for every corner of a face; faces come from faces, edges and vertices
+  centroids,  // a triangle into three about its centroid, old edges flipped; borders every second step
 };
 
 // The numbers of vertices that a face of a control mesh may have, both ends included.
@@ -62,6 +64,19 @@ template <class S>
 concept HasMasks = requires(const S& scheme, EdgeRing e, VertexRing v) {
   { scheme.edge_mask(e) } -> std::same_as<EdgeMask>;
   { scheme.vertex_mask(v) } -> std::same_as<VertexMask>;
+};
+
+// Of Split::corners: the points of a face of n corners.
+template <class S>
+concept HasCornerMasks = requires(const S& scheme, Index n) {
+  { scheme.corner_mask(n) } -> std::same_as<CornerMask>;
+};
+
+// Of Split::centroids: the vertex point of a smooth vertex of valence n, and its limit.
+template <class S>
+concept HasCentroidMasks = requires(const S& scheme, Index n) {
+  { scheme.vertex_mask(n) } -> std::same_as<VertexMask>;
+  { scheme.limit_mask(n) } -> std::same_as<VertexMask>;
 };
 
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
