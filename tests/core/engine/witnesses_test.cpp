@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/engine/plain/centroid_rows.h"
 #include "core/engine/plain/corner_rows.h"
 #include "core/schemes/doo_sabin.h"
+#include "core/schemes/sqrt3.h"
 #include "tests/core/engine/levels.h"
 #include "tests/core/engine/peers.h"
 #include "tests/shapes/build.h"
@@ -85,6 +87,53 @@ TEST(DooSabinByRows, is_cgals_where_borders_are_open) {
         apply<double>(step_rows(DooSabin{}, level, split), std::span<const double>(mesh.points), 3);
     EXPECT_LT(deviation(peers::cgal_doo_sabin(mesh, 1), points), kTolerance * diagonal(mesh.points)) << name;
   }
+}
+
+// CGAL has the same borders (its vertices of one face are no corners).
+TEST(Sqrt3ByRows, is_cgals_with_and_without_borders) {
+  int compared = 0;
+  for (auto [name, mesh] : shapes::all_shapes()) {
+    mesh.corner_indices.clear();
+    mesh.corner_sharpnesses.clear();
+    mesh.crease_indices.clear();
+    mesh.crease_lengths.clear();
+    mesh.crease_sharpnesses.clear();
+    mesh.interpolate_boundary = BoundaryInterpolation::edge_only;
+    const Level base = base_level(mesh);
+    bool has_free_points = false;
+    for (Index v = 0; v < base.faces.vertex_count(); ++v)
+      has_free_points |= base.faces.vertex_corners(v).empty();
+    if (has_free_points || mesh.points.size() > 150 ||
+        std::ranges::any_of(base.sharpness.vertices, is_sharp) || !is_manifold(base.faces))
+      continue;
+    Level level = base;
+    std::vector<double> points = mesh.points;
+    for (int steps = 1; steps <= 3; ++steps) {
+      points = apply<double>(step_rows(Sqrt3{}, level, false), std::span<const double>(points), 3);
+      level = next_level_by_centroids(level);
+      EXPECT_LT(deviation(peers::cgal_sqrt3(mesh, steps), points), kTolerance * diagonal(mesh.points))
+          << name << ' ' << steps;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 20);
+}
+
+TEST(Sqrt3ByRows, is_openmeshs_on_closed_meshes) {
+  int compared = 0;
+  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+    if (!is_closed(mesh) || has_valence_two(mesh)) continue;
+    Level level = base_level(mesh);
+    std::vector<double> points = mesh.points;
+    for (int steps = 1; steps <= 3; ++steps) {
+      points = apply<double>(step_rows(Sqrt3{}, level, false), std::span<const double>(points), 3);
+      level = next_level_by_centroids(level);
+      EXPECT_LT(deviation(peers::openmesh_sqrt3(mesh, steps), points), kTolerance * diagonal(mesh.points))
+          << name << ' ' << steps;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 6);
 }
 
 }  // namespace
