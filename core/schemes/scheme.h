@@ -79,6 +79,19 @@ concept HasCentroidMasks = requires(const S& scheme, Index n) {
   { scheme.limit_mask(n) } -> std::same_as<VertexMask>;
 };
 
+// Of Split::triangles where vertices stay, and edge points see more than their own faces: by the ring of a smooth
+// vertex of n edges (is_regular(n): it asks for no rule of its own, and the wing mask holds), by edge i of a sector of
+// k faces between creases (likewise), and along creases by the four-point rule of that tension.
+template <class S>
+concept HasRingMasks = requires(const S& scheme, Index n, Index k, Index i) {
+  { S::tension } -> std::convertible_to<double>;
+  { scheme.wing_mask() } -> std::same_as<WingMask>;
+  { scheme.is_regular(n) } -> std::same_as<bool>;
+  { scheme.ring_mask(n) } -> std::same_as<WaveMask>;
+  { scheme.is_regular_sector(k) } -> std::same_as<bool>;
+  { scheme.sector_mask(k, i) } -> std::same_as<SectorMask>;
+};
+
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
 // in cyclic order.
 template <class S>

@@ -131,8 +131,8 @@ class CornerRows {
 
   void list_closed_sectors() {
     pace_.fill(closed_, old_.vertex_count(), kNoIndex);
-    pace_.for_each(static_cast<Index>(split_.sector_closed.size()), [&](Index s) {
-      if (split_.sector_closed[s] != 0) closed_[old_.corner_vertex(split_.sector(s).front())] = s;
+    pace_.for_each(split_.sectors.count(), [&](Index s) {
+      if (split_.sectors.is_closed(s)) closed_[old_.corner_vertex(split_.sectors.corners(s).front())] = s;
     });
   }
 
@@ -156,7 +156,7 @@ class CornerRows {
     if (count > 0) return add_curve_limit(v, ends[0], ends[count - 1]);
     const Index s = closed_[v];
     if (s == kNoIndex) return maker_.add(v, 1);
-    const auto corners = split_.sector(s);
+    const auto corners = split_.sectors.corners(s);
     if (corners.size() == 2) return add_limit_between_two(corners);
     for (const Index h : corners) add_corner(h, 1.0 / static_cast<double>(corners.size()));
   }
@@ -166,9 +166,9 @@ class CornerRows {
   void add_limit_between_two(std::span<const Index> corners) {
     for (const Index h : corners) {
       const Index far = old_.next(h), far_mate = old_.mate(h);  // the corners at the other end of h's edge
-      const auto across = split_.sector(split_.sector_of[far_mate]);
-      const bool curve = split_.sector_closed[split_.sector_of[far_mate]] == 0 && across.size() == 2 &&
-                         split_.places[across.front()] == CornerPlace::after &&
+      const auto across = split_.sectors.corners(split_.sectors.of_corner(far_mate));
+      const bool curve = !split_.sectors.is_closed(split_.sectors.of_corner(far_mate)) &&
+                         across.size() == 2 && split_.places[across.front()] == CornerPlace::after &&
                          split_.places[across.back()] == CornerPlace::before;
       const double t = curve ? 1.0 / 2 : 1.0 / 4;
       for (const Index near : corners) add_corner(near, (1 - t) / 4);
@@ -181,7 +181,7 @@ class CornerRows {
   void add_tangent(Index v, Wave wave) {
     const Index s = closed_[v];
     if (s == kNoIndex || split_.pinned[v] != 0) return;
-    const auto corners = split_.sector(s);
+    const auto corners = split_.sectors.corners(s);
     const auto n = static_cast<Index>(corners.size());
     if (n < 3) return;
     for (Index i = 0; i < n; ++i) add_corner(corners[i], wave(angle(i, n)));

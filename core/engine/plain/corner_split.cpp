@@ -42,42 +42,15 @@ class Splitter {
 
   EdgeRole role(Index h) const { return split_.roles[old_.half_edge_edge(h)]; }
 
-  void find_sectors() {
-    pace_.fill(split_.sector_of, old_.half_edge_count(), kNoIndex);
-    split_.sector_corners.reserve(old_.half_edge_count());
-    pace_.for_each(old_.vertex_count(), [&](Index v) {
-      for (const Index h : old_.vertex_corners(v))
-        if (split_.sector_of[h] == kNoIndex) add_sector(h);
-    });
-  }
-
-  void add_sector(Index lowest) {
-    const auto s = static_cast<Index>(split_.sector_closed.size());
-    Index start = lowest;
-    bool closed = false;
-    while (!closed && role(start) == EdgeRole::crossed) {  // clockwise
-      pace_.spend(2);
-      start = old_.next(old_.mate(start));
-      closed = start == lowest;
-    }
-    Index h = start;
-    do {
-      pace_.spend(2);
-      split_.sector_of[h] = s;
-      split_.sector_corners.push_back(h);
-      const Index last = old_.prev(h);
-      h = role(last) == EdgeRole::crossed ? old_.mate(last) : start;
-    } while (h != start);
-    split_.sector_begins.push_back(static_cast<Index>(split_.sector_corners.size()));
-    split_.sector_closed.push_back(closed);
-  }
+  void find_sectors() { split_.sectors = Sectors(old_, crossed_edges(old_, level_.sharpness, pace_), pace_); }
 
   // A sector's ends, which a closed one has not.
   bool begins_at_curve(Index s) const {
-    return split_.sector_closed[s] == 0 && role(split_.sector(s).front()) == EdgeRole::curve;
+    return !split_.sectors.is_closed(s) && role(split_.sectors.corners(s).front()) == EdgeRole::curve;
   }
   bool ends_at_curve(Index s) const {
-    return split_.sector_closed[s] == 0 && role(old_.prev(split_.sector(s).back())) == EdgeRole::curve;
+    return !split_.sectors.is_closed(s) &&
+           role(old_.prev(split_.sectors.corners(s).back())) == EdgeRole::curve;
   }
 
   Index add_point(Index vertex, Index towards) {
@@ -93,14 +66,14 @@ class Splitter {
       leaving_.push_back(h);
       entering_.push_back(old_.next(h));
     });
-    pace_.fill(pinned_point_, split_.sector_closed.size(), kNoIndex);
-    pace_.for_each(static_cast<Index>(split_.sector_closed.size()), [&](Index s) { place_sector(s); });
+    pace_.fill(pinned_point_, split_.sectors.count(), kNoIndex);
+    pace_.for_each(split_.sectors.count(), [&](Index s) { place_sector(s); });
   }
 
   void place_sector(Index s) {
-    const auto corners = split_.sector(s);
+    const auto corners = split_.sectors.corners(s);
     const Index first = corners.front(), last = corners.back(), v = old_.corner_vertex(first);
-    const bool closed = split_.sector_closed[s] != 0, begins = begins_at_curve(s), ends = ends_at_curve(s);
+    const bool closed = split_.sectors.is_closed(s), begins = begins_at_curve(s), ends = ends_at_curve(s);
     if (split_.pinned[v] != 0 && (closed || begins || ends)) {
       if (corners.size() == 1) {
         split_.places[first] = CornerPlace::at_vertex;
@@ -141,7 +114,7 @@ class Splitter {
   }
   // Two faces between curves: what would be a face between their corners is an edge of the curve.
   bool is_passed_by_curve(Index s) const {
-    return split_.sector(s).size() == 2 && begins_at_curve(s) && ends_at_curve(s) &&
+    return split_.sectors.corners(s).size() == 2 && begins_at_curve(s) && ends_at_curve(s) &&
            pinned_point_[s] == kNoIndex;
   }
 
@@ -159,12 +132,12 @@ class Splitter {
       const Index h = old_.edge_half_edges(e)[0], m = old_.edge_half_edges(e)[1];
       begin_face(std::min(old_.face_of(h), old_.face_of(m)));
       add_corner(old_.next(h));
-      add_corner(h, is_passed_by_curve(split_.sector_of[h]));
+      add_corner(h, is_passed_by_curve(split_.sectors.of_corner(h)));
       add_corner(old_.next(m));
-      add_corner(m, is_passed_by_curve(split_.sector_of[m]));
+      add_corner(m, is_passed_by_curve(split_.sectors.of_corner(m)));
       end_face();
     });
-    pace_.for_each(static_cast<Index>(split_.sector_closed.size()), [&](Index s) { add_face_of_sector(s); });
+    pace_.for_each(split_.sectors.count(), [&](Index s) { add_face_of_sector(s); });
     pace_.for_each(old_.half_edge_count(), [&](Index h) { fill_up_to_curve(h); });
     const Index vertices = old_.half_edge_count() + static_cast<Index>(split_.more.size());
     split_.faces = Adjacency(vertices, Polygons(std::move(begins_), std::move(corners_), pace_), pace_);
@@ -179,10 +152,10 @@ class Splitter {
   }
 
   void add_face_of_sector(Index s) {
-    const auto corners = split_.sector(s);
+    const auto corners = split_.sectors.corners(s);
     const Index k = static_cast<Index>(corners.size()), point = pinned_point_[s], first = corners.front();
     const bool between_curves = begins_at_curve(s) && ends_at_curve(s);
-    if (split_.sector_closed[s] != 0) {
+    if (split_.sectors.is_closed(s)) {
       if (point != kNoIndex)
         for (Index i = 0; i < k; ++i) {
           const Index here = corners[i], next = corners[(i + 1) % k];

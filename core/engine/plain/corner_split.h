@@ -27,12 +27,12 @@
 // Two faces over the same points in opposite order close up; in the same order all their edges are curves. Where a
 // vertex inside has two faces only, there is no face in its place. A point that no face uses disappears.
 
-#include <span>
 #include <vector>
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/engine/plain/level.h"
+#include "core/engine/plain/sectors.h"
 #include "core/mesh/cage.h"
 
 namespace subdivd::plain {
@@ -65,13 +65,7 @@ struct CornerSplit {
   std::vector<CornerPlace> places;    // of the old corners
   std::vector<CurvePoint> more;
 
-  // Sectors: their corners counter-clockwise.
-  std::vector<Index> sector_corners, sector_begins = {0};
-  std::vector<unsigned char> sector_closed;
-  std::vector<Index> sector_of;  // corner
-  std::span<const Index> sector(Index s) const {
-    return std::span(sector_corners).subspan(sector_begins[s], sector_begins[s + 1] - sector_begins[s]);
-  }
+  Sectors sectors;
 };
 
 // Semi-sharpness plays no part: callers refuse it. Linear time.

@@ -452,8 +452,8 @@ TEST(DooSabinTangents, span_the_same_plane_from_level_to_level) {
     const CornerSplit split = surface.split;
     const Index vertices = surface.level.faces.vertex_count();
     surface.refine();
-    for (Index s = 0; s < split.sector_closed.size(); ++s) {
-      const auto corners = split.sector(s);
+    for (Index s = 0; s < split.sectors.count(); ++s) {
+      const auto corners = split.sectors.corners(s);
       std::array<double, 3> u{}, w{};
       // One step on, the corners of that face are the corners of its own vertices there.
       Surface later = surface;

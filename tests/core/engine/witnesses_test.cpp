@@ -11,6 +11,8 @@
 
 #include "core/engine/plain/centroid_rows.h"
 #include "core/engine/plain/corner_rows.h"
+#include "core/engine/plain/ring_rows.h"
+#include "core/schemes/butterfly.h"
 #include "core/schemes/doo_sabin.h"
 #include "core/schemes/sqrt3.h"
 #include "tests/core/engine/levels.h"
@@ -134,6 +136,35 @@ TEST(Sqrt3ByRows, is_openmeshs_on_closed_meshes) {
     ++compared;
   }
   EXPECT_GE(compared, 6);
+}
+
+double deviation_of_butterflies(const ControlMesh& mesh, int steps) {
+  Level level = base_level(mesh);
+  std::vector<double> points = mesh.points;
+  for (int step = 0; step < steps; ++step) {
+    points = apply<double>(step_rows(Butterfly{}, level, false), std::span<const double>(points), 3);
+    level = next_level(level, Split::triangles, CreaseMethod::uniform);
+  }
+  return deviation(peers::openmesh_butterfly(mesh, steps), points);
+}
+
+TEST(ButterflyByRows, is_openmeshs_on_closed_meshes) {
+  int compared = 0;
+  for (const auto& [name, mesh] : shapes::closed_shapes()) {
+    if (!is_closed(mesh) || has_valence_two(mesh)) continue;
+    for (int steps = 1; steps <= 2; ++steps)
+      EXPECT_LT(deviation_of_butterflies(mesh, steps), kTolerance * diagonal(mesh.points))
+          << name << ' ' << steps;
+    ++compared;
+  }
+  EXPECT_GE(compared, 6);
+}
+
+// Its borders inside are ours where they are regular: a tube has six edges inside and four on its ends.
+TEST(ButterflyByRows, is_openmeshs_at_regular_borders) {
+  const ControlMesh mesh = shapes::tube(7, 5);
+  for (int steps = 1; steps <= 2; ++steps)
+    EXPECT_LT(deviation_of_butterflies(mesh, steps), kTolerance * diagonal(mesh.points)) << steps;
 }
 
 }  // namespace
