@@ -50,6 +50,13 @@ struct SectorMask {
   double self = 1, first = 0, last = 0, sine[2] = {0, 0};
 };
 
+// Where the line from l_i through a vertex v inside goes on behind v, of whose edges and faces l are the other ends and
+// k the opposite corners (k_j between l_j and l_{j+1}): all_ends times the sum of l + near_ends (l_{i-1} + l_i +
+// l_{i+1}) + near_faces (k_{i-2} + k_{i-1} + k_i + k_{i+1}) + all_faces times the sum of k.
+struct ExtensionMask {
+  double all_ends = 0, near_ends = 0, near_faces = 0, all_faces = 0;
+};
+
 // On an edge (a, b) whose surroundings are regular: end (a + b) + opposite (o_0 + o_1) + wing (w_0 + ... + w_3), o being
 // opposite to it in its faces, w across the other edges of those.
 struct WingMask {

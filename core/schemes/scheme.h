@@ -92,6 +92,14 @@ concept HasRingMasks = requires(const S& scheme, Index n, Index k, Index i) {
   { scheme.sector_mask(k, i) } -> std::same_as<SectorMask>;
 };
 
+// Of Split::quads where vertices stay, and points follow the four-point rule of that tension along the lines of a net of
+// quads: how a line goes on behind a smooth vertex of n edges, n other than 2 and 4.
+template <class S>
+concept HasLineMasks = requires(const S& scheme, Index n) {
+  { S::tension } -> std::convertible_to<double>;
+  { scheme.extension_mask(n) } -> std::same_as<ExtensionMask>;
+};
+
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
 // in cyclic order.
 template <class S>
