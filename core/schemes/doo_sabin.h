@@ -4,6 +4,7 @@
 //
 // [DooSabin78]  D. Doo, M. Sabin, Behaviour of Recursive Division Surfaces near Extraordinary Points,
 //               Computer-Aided Design 10, 1978
+// [Zorin00]     D. Zorin, P. Schroeder, Subdivision for Modeling and Animation, SIGGRAPH 2000 course notes
 
 #include <span>
 #include <string_view>
@@ -34,7 +35,7 @@ struct DooSabin {
   //   doo_sabin  w_0 = 1/4 + 5/(4n), w_i = (3 + 2 cos(2 pi i / n)) / (4n); that is v/4, 3/4 of the centroid and half
   //              of the first wave                                                        [DooSabin78]
   //   midpoint   the mean of the centroid, the middles of both edges and v: w_0 = 1/2 + 1/(4n), neighbours
-  //              1/8 + 1/(4n), others 1/(4n)      [SIGGRAPH 2000 course 23, Subdivision for Modeling and Animation]
+  //              1/8 + 1/(4n), others 1/(4n)      [Zorin00]
   CornerMask corner_mask(Index n) const;
 };
 

@@ -17,6 +17,9 @@
 //   faces       one for every half-edge, under its number: beside a crossed edge (corner, point of the face across, point
 //               of the face); beside a crease the face's point with it, in a second step with its middle third
 //
+// Channels: a channel's borders are the mesh's, or creases of it. Across any other seam the mesh would flip an edge that
+// the channel keeps, and the two would not have the same faces any more: not provided for.
+//
 // Two faces over the same points have edges of their own. Steps alternate: Level::thirds_next.
 
 #include <array>

@@ -26,6 +26,9 @@
 //
 // Two faces over the same points in opposite order close up; in the same order all their edges are curves. Where a
 // vertex inside has two faces only, there is no face in its place. A point that no face uses disappears.
+//
+// Channels: the faces in the place of an edge or a vertex take values of several old faces. A channel without seams is
+// refined with the mesh's own split; a seam would have to be a curve of the mesh as well, and is not provided for.
 
 #include <vector>
 

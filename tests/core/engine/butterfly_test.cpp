@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "core/engine/plain/ring_rows.h"
 #include "core/schemes/butterfly.h"
 #include "tests/core/engine/levels.h"
+#include "tests/reference/plain.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
@@ -319,6 +320,64 @@ TEST(ButterflyByRows, are_the_same_for_rings_that_are_summed_first) {
         }
       }
     }
+}
+
+// At a vertex of k faces on a border, where the other ends of its edges have two faces and so make middles: the mean of
+// those and of the sector's mask, written out from short sectors and from large ones alike.
+TEST(ButterflyByRows, have_the_weights_of_a_sector_whether_it_is_summed_first_or_not) {
+  for (const Index k : {4u, 5u, 16u, 17u, 40u}) {
+    const ControlMesh mesh = shapes::open_fan(k);
+    const Level level = base_level(mesh);
+    const SparseRows all = written_out(step_rows(Butterfly{}, level, false));
+    const auto edges = level.faces.vertex_edges(0);  // counter-clockwise from the border on
+    const double theta = std::numbers::pi / k;
+    ASSERT_EQ(edges.size(), k + 1);
+    for (Index i = 1; i < k; ++i) {
+      const Count row = level.faces.vertex_count() + edges[i];
+      for (Index j = 1; j < k; ++j) {
+        const Index end = level.faces.other_end(edges[j], 0);
+        double weight = 0;
+        for (Count c = all.offsets[row]; c < all.offsets[row + 1]; ++c)
+          if (all.columns[c] == end) weight = all.weights[c];
+        const double of_sector = (std::sin(i * theta) * std::sin(j * theta) +
+                                  std::sin(2 * i * theta) * std::sin(2 * j * theta) / 2) /
+                                 k;
+        EXPECT_NEAR(weight, of_sector / 2 + (i == j ? 1.0 / 4 : 0), 1e-15) << k << ' ' << i << ' ' << j;
+      }
+    }
+  }
+}
+
+// A channel is a mesh of its own, in which seams are borders: four-point curves of its values.
+TEST(ButterflyByRows, have_seams_of_channels_as_borders) {
+  int seams = 0;
+  for (const auto& [name, mesh] : shapes::seam_shapes()) {
+    if (std::ranges::any_of(mesh.crease_sharpnesses, [](float s) { return is_semi_sharp(s); })) continue;
+    for (const Primvar& primvar : mesh.primvars) {
+      if (primvar.interpolation != Interpolation::face_varying || primvar.indices.empty()) continue;
+      const auto base = std::make_shared<const Topology<Triangles>>(static_cast<Index>(mesh.point_count()),
+                                                                    Triangles(mesh.face_vertex_indices));
+      const Sharpness sharpness = control_sharpness(mesh, *base);
+      const Channel channel =
+          make_channel(mesh, CreaseMethod::uniform, base, sharpness, vertices_with_faces(*base),
+                       primvar.indices, static_cast<Index>(primvar.values.size() / primvar.element_size));
+      const Level of_mesh = first_level(*base, sharpness, CreaseMethod::uniform),
+                  level = first_level(channel, of_mesh);
+      const Level next =
+          next_level(level, Split::triangles, next_level(of_mesh, Split::triangles, CreaseMethod::uniform));
+      for (const Level* at : {&level, &next}) {
+        const SparseRows rows = written_out(step_rows(Butterfly{}, *at, false));
+        for (Index e = 0; e < at->faces.edge_count(); ++e) {
+          const Count row = at->faces.vertex_count() + e;
+          ASSERT_NEAR(sum_of_row(rows, row), 1, 1e-12) << name;
+          if (at->faces.edge_half_edges(e).size() != 1 || channel.linear) continue;
+          ++seams;
+          ASSERT_LE(rows.offsets[row + 1] - rows.offsets[row], 4) << name;  // the border's own points
+        }
+      }
+    }
+  }
+  EXPECT_GT(seams, 100);
 }
 
 TEST(RingRows, stop_when_the_budget_says_so) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/engine/plain/base_faces.h"
 #include "core/engine/plain/centroid_rows.h"
 #include "core/engine/plain/centroid_split.h"
 #include "core/schemes/sqrt3.h"
@@ -275,6 +276,27 @@ TEST(Sqrt3ByRows, keeps_a_plane_a_plane) {
     for (std::size_t k = 0; k < surface.points.size(); k += 3)
       ASSERT_NEAR(surface.points[k + 2], 1 + 2 * surface.points[k] - 3 * surface.points[k + 1], 1e-13)
           << name;
+  }
+}
+
+// A face's nine children of two steps come from it, though corners of some lie in its neighbours.
+TEST(Sqrt3ByRows, knows_the_base_face_of_every_part) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    Surface surface(mesh);
+    const Adjacency control = surface.level.faces;
+    BaseFaces base = first_base_faces(control);
+    for (int depth = 0; depth < 2; ++depth) {
+      base = next_base_faces_by_centroids(base, surface.level);
+      surface.refine();
+    }
+    ASSERT_EQ(base.of_vertices.size(), surface.level.faces.vertex_count()) << name;
+    ASSERT_EQ(base.of_faces.size(), surface.level.faces.face_count()) << name;
+    for (Index f = 0; f < base.of_faces.size(); ++f) ASSERT_EQ(base.of_faces[f], f / 9) << name;
+    for (Index v = 0; v < base.of_vertices.size(); ++v) {
+      const bool is_free = v < control.vertex_count() && control.vertex_corners(v).empty();
+      ASSERT_TRUE(is_free ? base.of_vertices[v] == kNoIndex : base.of_vertices[v] < control.face_count())
+          << name;
+    }
   }
 }
 

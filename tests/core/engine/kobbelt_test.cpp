@@ -12,86 +12,13 @@
 #include "core/engine/plain/line_rows.h"
 #include "core/engine/plain/split.h"
 #include "core/schemes/kobbelt.h"
+#include "tests/core/engine/kobbelt_surface.h"
 #include "tests/core/engine/levels.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/polygons.h"
 
 namespace subdivd::plain {
 namespace {
-
-constexpr double kTension = Kobbelt::tension;
-
-// Meshes of quads without semi-sharp tags; others after a split of every face.
-std::vector<shapes::NamedShape> all_meshes() {
-  std::vector<shapes::NamedShape> meshes;
-  const auto add = [&](const std::string& name, ControlMesh mesh) {
-    const auto semi_sharp = [](float s) { return is_semi_sharp(s); };
-    if (std::ranges::any_of(mesh.crease_sharpnesses, semi_sharp) ||
-        std::ranges::any_of(mesh.corner_sharpnesses, semi_sharp))
-      return;
-    const auto four = [](Index n) { return n == 4; };
-    if (mesh.face_vertex_counts.empty() || !std::ranges::all_of(mesh.face_vertex_counts, four)) {
-      if (!mesh.crease_lengths.empty()) return;
-      const Level level = base_level(mesh);
-      const Adjacency split = split_faces(Split::quads, level.faces, {});
-      mesh.points.resize(3 * std::size_t{split.vertex_count()});
-      for (Index v = level.faces.vertex_count(); v < split.vertex_count(); ++v)
-        for (Index axis = 0; axis < 3; ++axis) mesh.points[3 * v + axis] = std::sin(v + 2.0 * axis);
-      mesh.face_vertex_indices.assign(split.corners().begin(), split.corners().end());
-      mesh.face_vertex_counts.assign(split.face_count(), 4);
-      mesh.hole_indices.clear();
-      mesh.primvars.clear();
-    }
-    meshes.push_back({name, mesh});
-  };
-  for (const auto& [name, mesh] : shapes::polygon_shapes()) add(name, mesh);
-  for (const auto& [name, mesh] : shapes::non_manifold_shapes()) add(name, mesh);
-  for (Index seed = 1; seed <= 30; ++seed)
-    add("random_" + std::to_string(seed),
-        shapes::with_joined_faces(shapes::random_mesh(seed), 4 + seed % 6, seed));
-  return meshes;
-}
-
-struct Surface {
-  explicit Surface(const ControlMesh& mesh) : level(base_level(mesh)), points(mesh.points) {}
-
-  std::vector<double> applied(const StepRows& rows) const {
-    return apply<double>(rows, std::span<const double>(points), 3);
-  }
-  void refine() {
-    points = applied(step_rows(Kobbelt{}, level, false));
-    level = next_level(level, Split::quads, CreaseMethod::uniform);
-  }
-  double nearest(const double* point) const {
-    double least = 1e9;
-    for (std::size_t k = 0; k < points.size(); k += 3)
-      least = std::min(least,
-                       std::hypot(points[k] - point[0], points[k + 1] - point[1], points[k + 2] - point[2]));
-    return least;
-  }
-
-  Level level;
-  std::vector<double> points;
-};
-
-// n quads around point 0 in the plane, like slices; points 1, 3, ... are its neighbours.
-ControlMesh flat_disk(Index n) {
-  std::vector<shapes::Point> points{{0, 0, 0}};
-  for (Index k = 0; k < 2 * n; ++k) {
-    const double angle = std::numbers::pi * k / n,
-                 radius = k % 2 == 0 ? 1 : 2 * std::cos(std::numbers::pi / n);
-    points.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
-  }
-  ControlMesh mesh = shapes::mesh_of(points, {});
-  for (std::size_t v = 0; v < points.size(); ++v)
-    for (std::size_t axis = 0; axis < 3; ++axis) mesh.points[3 * v + axis] = points[v][axis];
-  for (Index k = 0; k < n; ++k) {
-    mesh.face_vertex_counts.push_back(4);
-    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(),
-                                    {0, 2 * k + 1, 2 * k + 2, (2 * k + 2) % (2 * n) + 1});
-  }
-  return mesh;
-}
 
 TEST(KobbeltMask, goes_straight_on_at_a_regular_vertex) {
   const ExtensionMask mask = Kobbelt{}.extension_mask(4);
@@ -106,7 +33,7 @@ TEST(KobbeltMask, goes_straight_on_at_a_regular_vertex) {
 }
 
 TEST(LineRows, have_weights_that_sum_to_one) {
-  for (const auto& [name, mesh] : all_meshes()) {
+  for (const auto& [name, mesh] : kobbelt_meshes()) {
     Level level = base_level(mesh);
     for (int depth = 0; depth < 2; ++depth, level = next_level(level, Split::quads, CreaseMethod::uniform))
       for (const bool linear : {false, true}) {
@@ -123,8 +50,8 @@ TEST(LineRows, have_weights_that_sum_to_one) {
 }
 
 TEST(KobbeltByRows, keeps_old_points_to_the_bit) {
-  for (const auto& [name, mesh] : all_meshes()) {
-    Surface surface(mesh);
+  for (const auto& [name, mesh] : kobbelt_meshes()) {
+    KobbeltSurface surface(mesh);
     surface.refine();
     surface.refine();
     for (std::size_t k = 0; k < mesh.points.size(); ++k) ASSERT_EQ(surface.points[k], mesh.points[k]) << name;
@@ -189,7 +116,7 @@ TEST(KobbeltByRows, is_rows_of_four_point_curves_on_grids_in_either_order) {
     for (const auto& [columns, rows] : {std::pair{5u, 4u}, {7u, 6u}, {3u, 3u}}) {
       const ControlMesh mesh = grid_of(columns, rows, closed);
       const CurveWrap wrap = closed ? CurveWrap::periodic : CurveWrap::pinned;
-      Surface surface(mesh);
+      KobbeltSurface surface(mesh);
       std::vector<double> grid = mesh.points;
       Index width = columns;
       for (int step = 0; step < 2; ++step) {
@@ -217,7 +144,7 @@ TEST(KobbeltByRows, reproduces_bicubics_on_regular_nets) {
     mesh.points[k + 1] = y;
     mesh.points[k + 2] = cubic(x, y);
   }
-  Surface surface(mesh);
+  KobbeltSurface surface(mesh);
   surface.refine();
   int inside = 0;
   for (std::size_t k = 0; k < surface.points.size(); k += 3) {
@@ -229,95 +156,6 @@ TEST(KobbeltByRows, reproduces_bicubics_on_regular_nets) {
   EXPECT_EQ(inside, 169);
 }
 
-// --- Extraordinary vertices -----------------------------------------------------------------------------------
-
-std::array<double, 3> edge_point(const Surface& before, const Surface& after, Index h) {
-  const Index v = before.level.faces.vertex_count() + before.level.faces.half_edge_edge(h);
-  return {after.points[3 * v], after.points[3 * v + 1], after.points[3 * v + 2]};
-}
-
-// From the edge points that a step made: what the four-point rule makes of them in one direction of a face.
-std::array<double, 3> across(const Surface& before, const Surface& after, Index h) {
-  const Adjacency& faces = before.level.faces;
-  const auto opposite = [&](Index g) { return faces.next(faces.next(g)); };
-  const Index other = opposite(h);
-  const auto a = edge_point(before, after, h), b = edge_point(before, after, other);
-  const auto before_a = edge_point(before, after, opposite(faces.mate(h))),
-             behind_b = edge_point(before, after, opposite(faces.mate(other)));
-  std::array<double, 3> point{};
-  for (std::size_t k = 0; k < 3; ++k)
-    point[k] = (0.5 + kTension) * (a[k] + b[k]) - kTension * (before_a[k] + behind_b[k]);
-  return point;
-}
-
-TEST(KobbeltByRows, makes_one_point_in_both_directions_of_the_faces_at_an_extraordinary_vertex) {
-  for (const auto& [name, mesh] : all_meshes()) {
-    if (mesh.points.size() > 400) continue;
-    Surface before(mesh);
-    before.refine();
-    before.refine();  // extraordinary vertices are four edges apart now: no face's rule sees two
-    Surface after = before;
-    after.refine();
-    const Adjacency& faces = before.level.faces;
-    const auto inside = [&](Index v) {
-      return faces.vertex_corners(v).size() == faces.vertex_edges(v).size();
-    };
-    const Sectors sectors(faces, crossed_edges(faces, before.level.sharpness));
-    for (Index f = 0; f < faces.face_count(); ++f) {
-      bool away = true;  // from creases
-      for (Index h = 4 * f; h < 4 * f + 4; ++h)
-        for (const Index g : faces.vertex_corners(faces.corner_vertex(h)))
-          for (Index c = faces.face_begin(faces.face_of(g)); c < faces.face_begin(faces.face_of(g)) + 4; ++c)
-            away &= inside(faces.corner_vertex(c)) && sectors.is_closed(sectors.of_corner(c)) &&
-                    before.level.sharpness.vertices[faces.corner_vertex(c)] == 0;
-      if (!away) continue;
-      const auto one = across(before, after, 4 * f), other = across(before, after, 4 * f + 1);
-      bool at_extraordinary = false, regular = true;
-      for (Index h = 4 * f; h < 4 * f + 4; ++h) {
-        at_extraordinary |= faces.vertex_corners(faces.corner_vertex(h)).size() != 4;
-        for (const Index g : faces.vertex_corners(faces.corner_vertex(h)))
-          for (Index c = faces.face_begin(faces.face_of(g)); c < faces.face_begin(faces.face_of(g)) + 4; ++c)
-            regular &= faces.vertex_corners(faces.corner_vertex(c)).size() == 4;
-      }
-      const Index v = faces.vertex_count() + faces.edge_count() + f;
-      for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_NEAR(after.points[3 * v + k], (one[k] + other[k]) / 2, 1e-13) << name;
-        bool two = false;  // a vertex of two edges has no such rule
-        for (Index h = 4 * f; h < 4 * f + 4; ++h)
-          two |= faces.vertex_corners(faces.corner_vertex(h)).size() == 2;
-        if ((at_extraordinary || regular) && !two) {
-          EXPECT_NEAR(one[k], other[k], 1e-12) << name << ' ' << f;
-        }
-      }
-    }
-  }
-}
-
-// A flat disk stays unfolded, and shrinks towards its middle by the eigenvalue that kobbelt.h names.
-TEST(KobbeltByRows, is_regular_around_extraordinary_vertices) {
-  const std::pair<Index, double> eigenvalues[] = {{3, 0.42633},  {5, 0.53794},  {6, 0.55968},
-                                                  {7, 0.57320},  {8, 0.58213},  {9, 0.58834},
-                                                  {10, 0.59282}, {11, 0.59615}, {12, 0.59870}};
-  for (const auto& [n, eigenvalue] : eigenvalues) {
-    Surface surface(flat_disk(n));
-    double length = 0, shrunk = 0;
-    for (int depth = 0; depth < 7; ++depth) {
-      surface.refine();
-      const Index end = surface.level.faces.other_end(surface.level.faces.vertex_edges(0)[0], 0);
-      const double now = std::hypot(surface.points[3 * end], surface.points[3 * end + 1]);
-      shrunk = now / length;
-      length = now;
-    }
-    EXPECT_NEAR(shrunk, eigenvalue, 2e-4) << n;
-    for (Index h = 0; h < surface.level.faces.half_edge_count(); ++h) {
-      const double* a = &surface.points[3 * surface.level.faces.corner_vertex(h)];
-      const double* b = &surface.points[3 * surface.level.faces.corner_vertex(surface.level.faces.next(h))];
-      const double* c = &surface.points[3 * surface.level.faces.corner_vertex(surface.level.faces.prev(h))];
-      ASSERT_GT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0) << n << ' ' << h;
-    }
-  }
-}
-
 TEST(KobbeltTangents, are_halved_by_every_step_and_exact_for_cubics) {
   ControlMesh mesh = grid_of(9, 9, false);
   for (std::size_t k = 0; k < mesh.points.size(); k += 3) {
@@ -325,7 +163,7 @@ TEST(KobbeltTangents, are_halved_by_every_step_and_exact_for_cubics) {
                  y = mesh.points[k + 1] = static_cast<double>(k / 3 / 9);
     mesh.points[k + 2] = 0.1 * x * x * x - y * y * y / 7 + x * y;
   }
-  Surface surface(mesh);
+  KobbeltSurface surface(mesh);
   for (int depth = 0; depth < 2; ++depth) {
     const std::vector<double> tangents = surface.applied(tangent_rows(Kobbelt{}, surface.level, false));
     const double x = surface.points[3 * 40], y = surface.points[3 * 40 + 1],
@@ -346,7 +184,7 @@ TEST(KobbeltByRows, has_the_four_point_curve_as_border) {
   ControlMesh mesh = flat_disk(5);
   for (std::size_t k = 2; k < mesh.points.size(); k += 3) mesh.points[k] = std::sin(static_cast<double>(k));
   mesh.interpolate_boundary = BoundaryInterpolation::edge_only;
-  Surface surface(mesh);
+  KobbeltSurface surface(mesh);
   for (Index l = 1; l <= 3; ++l) {
     surface.refine();
     ControlCurves curve;
@@ -360,9 +198,9 @@ TEST(KobbeltByRows, has_the_four_point_curve_as_border) {
 }
 
 TEST(KobbeltByRows, does_not_depend_on_how_points_and_faces_are_numbered) {
-  for (const auto& [name, mesh] : all_meshes()) {
+  for (const auto& [name, mesh] : kobbelt_meshes()) {
     const Renumbered other = renumbered(mesh, 3);
-    Surface a(mesh), b(other.mesh);
+    KobbeltSurface a(mesh), b(other.mesh);
     const Adjacency from = a.level.faces, to = b.level.faces;
     a.refine();
     b.refine();
@@ -380,10 +218,10 @@ TEST(KobbeltByRows, does_not_depend_on_how_points_and_faces_are_numbered) {
 }
 
 TEST(KobbeltByRows, keeps_a_plane_a_plane) {
-  for (auto [name, mesh] : all_meshes()) {
+  for (auto [name, mesh] : kobbelt_meshes()) {
     for (std::size_t k = 0; k < mesh.points.size(); k += 3)
       mesh.points[k + 2] = 1 + 2 * mesh.points[k] - 3 * mesh.points[k + 1];
-    Surface surface(mesh);
+    KobbeltSurface surface(mesh);
     surface.refine();
     surface.refine();
     for (std::size_t k = 0; k < surface.points.size(); k += 3)
@@ -399,37 +237,6 @@ TEST(KobbeltByRows, are_linear_in_the_faces_of_a_pole) {
   const StepRows rows = step_rows(Kobbelt{}, level, false);
   EXPECT_EQ(rows.sums.row_count(), 2);
   EXPECT_LT(rows.rows.columns.size() + rows.sums.columns.size(), Count{20} * level.faces.half_edge_count());
-}
-
-// By the formula, for a ring short enough to be written out and for one that is summed.
-TEST(KobbeltByRows, extends_lines_by_the_formula_in_small_rings_and_in_large_ones) {
-  for (const Index n : {3u, 5u, 16u, 17u, 50u}) {
-    ControlMesh mesh = flat_disk(n);
-    for (std::size_t k = 2; k < mesh.points.size(); k += 3) mesh.points[k] = std::sin(static_cast<double>(k));
-    Surface surface(mesh);
-    const Adjacency faces = surface.level.faces;
-    surface.refine();
-    const auto z = [&](Index v) { return mesh.points[3 * v + 2]; };
-    const auto l = [&](Index i) { return z(2 * (i % n) + 1); };
-    const auto k = [&](Index i) { return z(2 * (i % n) + 2); };
-    const double c = kTension / (0.5 + kTension);
-    double ends = 0, opposite = 0;
-    for (Index i = 0; i < n; ++i) {
-      ends += l(i);
-      opposite += k(i);
-    }
-    for (Index i = 0; i < n; ++i) {
-      const double behind = 4.0 / n * ends - (l(i + n - 1) + l(i) + l(i + 1)) +
-                            c * (k(i + 2 * n - 2) + k(i + 2 * n - 1) + k(i) + k(i + 1)) -
-                            4 * c / n * opposite;
-      // The neighbour lies on the border: the line is pinned there.
-      const double expected = (0.5 + kTension) * (z(0) + l(i)) - kTension * (behind + 2 * l(i) - z(0));
-      for (const Index e : faces.vertex_edges(0))
-        if (faces.other_end(e, 0) == 2 * i + 1) {
-          EXPECT_NEAR(surface.points[3 * (faces.vertex_count() + e) + 2], expected, 1e-13) << n << ' ' << i;
-        }
-    }
-  }
 }
 
 TEST(LineRows, stop_when_the_budget_says_so) {
