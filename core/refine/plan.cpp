@@ -141,17 +141,23 @@ Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const P
   return *std::move(scheme);
 }
 
-// Measured on closed meshes, separate triangles, hubs and many channels. A cage that is not all triangles or all quads
-// is held twice, and once more as quads of its first step.
-constexpr Count kBytesPerCorner = 112, kBytesPerPolygonCorner = 1100, kBytesPerPoint = 64;
+// Whether the first step must make quads of the faces.
+bool has_first_step(const AnyScheme& scheme, FaceSizes sizes) {
+  return !splits_into_triangles(scheme) && sizes != FaceSizes{4, 4};
+}
+
+// Measured on closed meshes, separate faces, hubs and many channels. What the first step makes is held beside the
+// quads, and while it is made much else.
+constexpr Count kBytesPerCorner = 112, kBytesPerCornerOfFirstStep = 440, kBytesPerPoint = 64;
 
 Count plan_bytes(const Cage& cage, const PlanOptions& options) {
+  const FaceSizes sizes = sizes_of(cage, {});
+  const auto scheme = scheme_of_mesh(cage.subdivision_scheme, sizes, options.schemes);
   const Count nets = 1 + cage.channels.size(), corners = cage.face_vertex_indices.size();
-  const bool grids = corners % std::max<Count>(cage.face_count(), 1) == 0 &&
-                     corners / std::max<Count>(cage.face_count(), 1) <= 4;
-  Count bytes =
-      ((grids ? kBytesPerCorner : kBytesPerPolygonCorner) * corners + kBytesPerPoint * cage.point_count) *
-      (nets + (cage.render_meshes.empty() ? 0 : 1));
+  const Count per_corner =
+      scheme && has_first_step(*scheme, sizes) ? kBytesPerCornerOfFirstStep : kBytesPerCorner;
+  Count bytes = (per_corner * corners + kBytesPerPoint * cage.point_count) *
+                (nets + (cage.render_meshes.empty() ? 0 : 1));
   if (options.crease_method == CreaseMethod::chaikin) {
     const Count edges = std::min<Count>(cage.crease_indices.size(), corners);
     bytes += nets * chaikin_bytes(edges, options.max_level);
@@ -274,10 +280,9 @@ Result<Plan> Plan::build(const Cage& cage, const PlanOptions& options, const Bud
     plan.scheme_ = *std::move(scheme);
     Builder builder{cage, options, budget, pace, plan};
     const FaceSizes sizes = sizes_of(cage, pace);
-    const bool triangles = splits_into_triangles(plan.scheme_);
-    auto built = triangles                             ? builder.build<Triangles>()
-                 : sizes.least == 4 && sizes.most == 4 ? builder.build<Quads>()
-                                                       : builder.build<Polygons>();
+    auto built = splits_into_triangles(plan.scheme_)   ? builder.build<Triangles>()
+                 : has_first_step(plan.scheme_, sizes) ? builder.build<Polygons>()
+                                                       : builder.build<Quads>();
     if (!built) return std::move(built).error();
     return plan;
   });

@@ -36,4 +36,39 @@ inline double sum_of(const RingMask& mask) {
   return sum;
 }
 
+// Point of corner k of a face of n corners, where every corner gets one: self v_k + beside (v_{k-1} + v_{k+1}) +
+// mean (v_0 + ... + v_{n-1}) / n + wave (cos(2 pi (i - k) / n) v_i summed over i) / n. In this form, and not as n
+// weights, because all corners of a face together then take time in n and not in n^2.
+struct CornerMask {
+  double self = 1, beside = 0, mean = 0, wave = 0;
+};
+
+// --- Of interpolating schemes ---------------------------------------------------------------------------------
+
+// Between a vertex v and the end e_i of edge i, from all edges around v: self v + the sum over all j of
+// (wave[0] + wave[1] cos(2 pi (j - i) / n) + wave[2] cos(4 pi (j - i) / n)) e_j / n. As waves, and not as n weights,
+// because all edges of a ring together then take time in n and not in n^2.
+struct WaveMask {
+  double self = 1, wave[3] = {0, 0, 0};
+};
+
+// The same in a sector of k faces between two creases, edges 0 and k: self v + first e_0 + last e_k + the sum over
+// 0 < j < k of (sine[0] sin(pi j / k) + sine[1] sin(2 pi j / k)) e_j.
+struct SectorMask {
+  double self = 1, first = 0, last = 0, sine[2] = {0, 0};
+};
+
+// Where the line from l_i through a vertex v inside goes on behind v, of whose edges and faces l are the other ends and
+// k the opposite corners (k_j between l_j and l_{j+1}): all_ends times the sum of l + near_ends (l_{i-1} + l_i +
+// l_{i+1}) + near_faces (k_{i-2} + k_{i-1} + k_i + k_{i+1}) + all_faces times the sum of k.
+struct ExtensionMask {
+  double all_ends = 0, near_ends = 0, near_faces = 0, all_faces = 0;
+};
+
+// On an edge (a, b) whose surroundings are regular: end (a + b) + opposite (o_0 + o_1) + wing (w_0 + ... + w_3), o being
+// opposite to it in its faces, w across the other edges of those.
+struct WingMask {
+  double end = 0.5, opposite = 0, wing = 0;
+};
+
 }  // namespace subdivd

@@ -17,6 +17,8 @@ namespace subdivd {
 enum class Split {
   triangles,  // a triangle into four
   quads,      // a face of n corners into n quads that meet at a point of its own
+  corners,    // a vertex for every corner of a face; faces come from faces, edges and vertices
+  centroids,  // a triangle into three about its centroid, old edges flipped; borders every second step
 };
 
 // The numbers of vertices that a face of a control mesh may have, both ends included.
@@ -62,6 +64,40 @@ template <class S>
 concept HasMasks = requires(const S& scheme, EdgeRing e, VertexRing v) {
   { scheme.edge_mask(e) } -> std::same_as<EdgeMask>;
   { scheme.vertex_mask(v) } -> std::same_as<VertexMask>;
+};
+
+// Of Split::corners: the points of a face of n corners.
+template <class S>
+concept HasCornerMasks = requires(const S& scheme, Index n) {
+  { scheme.corner_mask(n) } -> std::same_as<CornerMask>;
+};
+
+// Of Split::centroids: the vertex point of a smooth vertex of valence n, and its limit.
+template <class S>
+concept HasCentroidMasks = requires(const S& scheme, Index n) {
+  { scheme.vertex_mask(n) } -> std::same_as<VertexMask>;
+  { scheme.limit_mask(n) } -> std::same_as<VertexMask>;
+};
+
+// Of Split::triangles where vertices stay, and edge points see more than their own faces: by the ring of a smooth
+// vertex of n edges (is_regular(n): it asks for no rule of its own, and the wing mask holds), by edge i of a sector of
+// k faces between creases (likewise), and along creases by the four-point rule of that tension.
+template <class S>
+concept HasRingMasks = requires(const S& scheme, Index n, Index k, Index i) {
+  { S::tension } -> std::convertible_to<double>;
+  { scheme.wing_mask() } -> std::same_as<WingMask>;
+  { scheme.is_regular(n) } -> std::same_as<bool>;
+  { scheme.ring_mask(n) } -> std::same_as<WaveMask>;
+  { scheme.is_regular_sector(k) } -> std::same_as<bool>;
+  { scheme.sector_mask(k, i) } -> std::same_as<SectorMask>;
+};
+
+// Of Split::quads where vertices stay, and points follow the four-point rule of that tension along the lines of a net of
+// quads: how a line goes on behind a smooth vertex of n edges, n other than 2 and 4.
+template <class S>
+concept HasLineMasks = requires(const S& scheme, Index n) {
+  { S::tension } -> std::convertible_to<double>;
+  { scheme.extension_mask(n) } -> std::same_as<ExtensionMask>;
 };
 
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring

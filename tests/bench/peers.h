@@ -1,5 +1,5 @@
 #pragma once
-// Other libraries' Loop subdivision, as far as they are installed (docker/packages.txt, section bench). They
+// Other libraries' Loop subdivision, as far as they are installed (docker/packages.txt, section test). They
 // know no creases: on a mesh that has some they do a little less than we do.
 
 #include <cstddef>

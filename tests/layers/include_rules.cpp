@@ -66,7 +66,7 @@ const std::set<std::string_view> kPosix = {
 
 // What the list of schemes, and every scheme of it, looks like to others.
 const std::set<std::string_view> kSchemesInGeneral = {"core/schemes/all.h", "core/schemes/mask.h",
-                                                      "core/schemes/scheme.h"};
+                                                      "core/schemes/scheme.h", "core/schemes/tags.h"};
 
 // House style is .h and .cpp; the others are read too, lest a stray arrow hide behind a name.
 const std::set<std::string> kSourceExtensions = {".h", ".cpp", ".hpp", ".cc", ".cxx",

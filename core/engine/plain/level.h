@@ -23,6 +23,7 @@ struct Level {
   // other.
   std::vector<std::array<float, 2>> halves;
   bool linear = false, linear_borders = false;  // see Channel
+  bool thirds_next = false;  // of Split::centroids: whether the next step cuts borders into three
 };
 
 // Level 0 of a mesh.

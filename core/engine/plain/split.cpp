@@ -75,6 +75,7 @@ Adjacency split_quads(const Adjacency& parent, const Pace& pace) {
 }  // namespace
 
 Adjacency split_faces(Split split, const Adjacency& parent, const Pace& pace) {
+  assert(split == Split::triangles || split == Split::quads);
   return split == Split::triangles ? split_triangles(parent, pace) : split_quads(parent, pace);
 }
 

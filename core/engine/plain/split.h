@@ -19,6 +19,7 @@ inline Index half_at(const Adjacency& faces, Index e, Index v) {
 //              inside it, across its corner k, lies edge 2 E + 3 f + k.
 //   quads      The point of face f has the number V + E + f. The child at the corner that half-edge h leaves has
 //              the number h and begins there; from the edge point of h to the face point runs edge 2 E + h.
+// The other splits depend on sharpness too, and have files of their own: corner_split, centroid_split.
 Adjacency split_faces(Split split, const Adjacency& parent, const Pace& pace);
 
 // How many points that step makes.

@@ -12,39 +12,13 @@
 #include "core/oracle/far_polygons.h"
 #include "core/schemes/bilinear.h"
 #include "core/schemes/catmull_clark.h"
+#include "tests/core/engine/levels.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/polygons.h"
 #include "tests/shapes/random.h"
 
 namespace subdivd::plain {
 namespace {
-
-Polygons faces_of(const ControlMesh& mesh) {
-  std::vector<Index> offsets{0};
-  const Count faces = mesh.face_count();
-  for (Count f = 0; f < faces; ++f)
-    offsets.push_back(offsets.back() + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]));
-  return Polygons(std::move(offsets), mesh.face_vertex_indices);
-}
-
-Level base_level(const ControlMesh& mesh, CreaseMethod method) {
-  const auto vertices = static_cast<Index>(mesh.point_count());
-  const Topology<Polygons> topology(vertices, faces_of(mesh));
-  return first_level(Adjacency(vertices, faces_of(mesh)), control_sharpness(mesh, topology), method);
-}
-
-double diagonal(const std::vector<double>& points) {
-  double square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = points[axis], most = points[axis];
-    for (std::size_t k = axis; k < points.size(); k += 3) {
-      least = std::min(least, points[k]);
-      most = std::max(most, points[k]);
-    }
-    square += (most - least) * (most - least);
-  }
-  return std::sqrt(square);
-}
 
 // The largest distance between our points and Far's at any corner of the levels up to `depth`.
 template <class Scheme>

@@ -1,0 +1,128 @@
+// What plans and refinement allocate, counted, against what is predicted before them. A program of its own: it
+// replaces operator new.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/refine/plan.h"
+#include "core/refine/refine.h"
+#include "tests/shapes/build.h"
+#include "tests/shapes/polygons.h"
+#include "tests/shapes/random.h"
+#include "tests/support/allocations.h"
+
+namespace subdivd {
+namespace {
+
+constexpr std::int64_t kSlack = 65536;  // blocks are as large as the allocator gives them
+
+ControlMesh sheet(Index n, Index corners_of_last) {
+  ControlMesh mesh;
+  for (Index y = 0; y <= n; ++y)
+    for (Index x = 0; x <= n; ++x)
+      mesh.points.insert(mesh.points.end(), {double(x), double(y), 0.1 * ((x * 7 + y * 3) % 5)});
+  for (Index y = 0; y < n; ++y)
+    for (Index x = 0; x < n; ++x) {
+      const Index a = y * (n + 1) + x;
+      mesh.face_vertex_counts.push_back(4);
+      mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {a, a + 1, a + n + 2, a + n + 1});
+    }
+  mesh.face_vertex_counts.back() = corners_of_last;
+  mesh.face_vertex_indices.resize(mesh.face_vertex_indices.size() - 4 + corners_of_last);
+  return mesh;
+}
+
+ControlMesh apart(Index faces, Index size) {
+  ControlMesh mesh;
+  for (Index f = 0; f < faces; ++f) {
+    for (Index k = 0; k < size; ++k) {
+      mesh.points.insert(mesh.points.end(), {double(f), double(k), double(k) * k});
+      mesh.face_vertex_indices.push_back(size * f + k);
+    }
+    mesh.face_vertex_counts.push_back(size);
+  }
+  return mesh;
+}
+
+ControlMesh hub(Index faces) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 1};
+  for (Index k = 0; k < faces; ++k) {
+    mesh.points.insert(mesh.points.end(), {std::cos(k * 6.28 / faces), std::sin(k * 6.28 / faces), 0});
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {0, 1 + k, 1 + (k + 1) % faces});
+  }
+  return mesh;
+}
+
+// Every corner a value of its own, twice.
+ControlMesh with_channels(ControlMesh mesh) {
+  for (const char* name : {"a", "b"}) {
+    Primvar primvar{.name = name,
+                    .interpolation = Interpolation::face_varying,
+                    .element_size = 2,
+                    .values = {},
+                    .indices = {}};
+    const bool turned = *name == 'b';
+    const auto corners = static_cast<Index>(mesh.face_vertex_indices.size());
+    for (Index c = 0; c < corners; ++c) {
+      primvar.values.insert(primvar.values.end(), {double(c), 1});
+      primvar.indices.push_back(turned ? corners - 1 - c : c);
+    }
+    mesh.primvars.push_back(std::move(primvar));
+  }
+  return mesh;
+}
+
+// Of some `size` * 1,000 corners each.
+std::vector<shapes::NamedShape> meshes_of(Index size) {
+  ControlMesh mixed = apart(250 * size, 4);  // as many corners as quads have
+  for (Index f = 0; f < 250 * size; ++f) mixed.face_vertex_counts[f] = f % 2 == 0 ? 3 : 5;
+  const auto side = static_cast<Index>(std::sqrt(250.0 * size));
+  return {{"quads", sheet(side, 4)},
+          {"quads and a triangle", sheet(side, 3)},
+          {"pentagons apart", apart(200 * size, 5)},
+          {"triangles and pentagons apart", std::move(mixed)},
+          {"triangles apart", apart(333 * size, 3)},
+          {"a hub", hub(333 * size)},
+          {"one face", apart(1, 1000 * size)},
+          {"seams", with_channels(sheet(side, 3))},
+          {"seams of quads", with_channels(sheet(side, 4))}};
+}
+
+TEST(Memory, of_a_plan_is_known_before) {
+  for (const auto& [name, mesh] : meshes_of(40))
+    for (const char* scheme : {"catmullClark", "bilinear"}) {
+      ControlMesh of_scheme = mesh;
+      of_scheme.subdivision_scheme = scheme;
+      const auto predicted = static_cast<std::int64_t>(plan_bytes(of_scheme, {}));
+      const test::Allocations count;
+      const auto plan = Plan::build(of_scheme, {.max_level = 3}, {});
+      ASSERT_TRUE(plan.ok()) << name;
+      EXPECT_LE(count.peak_bytes(), predicted + kSlack) << name << ' ' << scheme;
+      EXPECT_GE(5 * count.peak_bytes(), predicted) << name << ' ' << scheme;
+    }
+}
+
+// Arrays of less than 2 MiB: larger ones are rounded up to whole huge pages (core/base/large_blocks.h).
+TEST(Memory, of_refinement_is_known_from_the_plan) {
+  for (const auto& [name, mesh] : meshes_of(4))
+    for (const Index level : {0, 1, 2}) {
+      ControlMesh of_scheme = mesh;
+      of_scheme.subdivision_scheme = "catmullClark";
+      const RefineOptions options = {.level = level, .limit = true, .normals = true};
+      const auto size = predict_size<double>(of_scheme, options);
+      ASSERT_TRUE(size.ok()) << name;
+      const test::Allocations count;
+      const auto refined = refine<double>(of_scheme, options, {});
+      ASSERT_TRUE(refined.ok()) << name;
+      const auto promised = static_cast<std::int64_t>(size->bytes + size->working_bytes);
+      EXPECT_LE(count.peak_bytes(), promised + kSlack) << name << " at level " << level;
+      EXPECT_GE(5 * count.peak_bytes(), promised) << name << " at level " << level;
+    }
+}
+
+}  // namespace
+}  // namespace subdivd
