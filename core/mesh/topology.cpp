@@ -22,17 +22,17 @@ Result<Topology<Faces>> Topology<Faces>::build(Index vertex_count, Faces faces, 
 
 template <class Faces>
 Topology<Faces>::Topology(Index vertex_count, Faces faces, Buffer<Index> half_edge_edges,
-                          Buffer<std::array<Index, 2>> edge_vertices)
+                          Buffer<std::array<Index, 2>> edge_vertices, const Pace& pace)
     : Base(typename Base::WithoutEdges{}, vertex_count, std::move(faces)) {
   Edges edges;
   edges.of_half_edges = std::move(half_edge_edges);
   edges.vertices = std::move(edge_vertices);
-  edges.sides.assign(edges.count(), {kNoIndex, kNoIndex});
+  pace.fill(edges.sides, edges.count(), std::array<Index, 2>{kNoIndex, kNoIndex});
   edges_ = std::move(edges);
-  for (Index h = 0; h < corner_vertices().size(); ++h)
-    edges_.attach(h, corner_vertices()[h], edges_.of_half_edges[h]);
-  edges_.set_kinds();
-  connect(count_corners({}), {});
+  pace.for_each(static_cast<Index>(corner_vertices().size()),
+                [&](Index h) { edges_.attach(h, corner_vertices()[h], edges_.of_half_edges[h]); });
+  edges_.set_kinds(pace);
+  connect(count_corners(pace), pace);
 }
 
 // Sets the lengths of the rows of corners; returns the lowest corner at every vertex, kNoIndex where there is

@@ -32,7 +32,7 @@ class Topology : public Connectivity<Faces> {
   // Refinement needs it: two faces over the same three points refine to edges that share their ends and are
   // not the same.
   Topology(Index vertex_count, Faces faces, Buffer<Index> half_edge_edges,
-           Buffer<std::array<Index, 2>> edge_vertices);
+           Buffer<std::array<Index, 2>> edge_vertices, const Pace& pace = {});
 
   using Base = Connectivity<Faces>;
   using Base::corner_vertices;

@@ -66,7 +66,7 @@ std::shared_ptr<const Topology<Quads>> quads_of(const Connectivity<Polygons>& po
   });
   return std::make_shared<const Topology<Quads>>(vertices + edges + polygons.face_count(),
                                                  Quads(std::move(corners)), std::move(edges_of),
-                                                 std::move(ends));
+                                                 std::move(ends), pace);
 }
 
 MeshFirstStep first_step(const AnyScheme& scheme, CreaseMethod method,

@@ -109,6 +109,15 @@ TEST(StopsMidway, at_one_vertex_of_all_faces) {
   expect_stops_midway([&](const Budget& budget) { return refine<float>(mesh, everything(0), budget); });
 }
 
+// One step of everything, and what it is made of.
+TEST(StopsMidway, where_faces_become_quads) {
+  ControlMesh mesh = shapes::grid(300, 300);
+  mesh.subdivision_scheme = "catmullClark";
+  mesh.primvars.push_back(shapes::unindexed(mesh, "st", 2));
+  expect_stops_midway([&](const Budget& budget) { return Plan::build(mesh, {.max_level = 1}, budget); });
+  expect_stops_midway([&](const Budget& budget) { return refine<float>(mesh, everything(0), budget); });
+}
+
 TEST(StopsMidway, within_one_face) {
   const ControlMesh mesh = shapes::tetrahedron();
   RefineOptions options = everything(10);
