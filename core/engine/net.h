@@ -64,7 +64,7 @@ class Net {
  public:
   // Of the mesh.
   static Net build(const AnyScheme& scheme, CreaseMethod method,
-                   std::shared_ptr<const Topology<Faces>> topology, Sharpness sharpness, Index max_level,
+                   std::shared_ptr<const Topology<Faces>> topology, Sharpness&& sharpness, Index max_level,
                    const Pace& pace);
   // Of a channel of it, whose semi-sharp edges decay with the mesh's.
   static Net build(std::shared_ptr<const Net> mesh, Channel<Faces> channel, const Pace& pace);

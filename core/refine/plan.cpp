@@ -138,7 +138,7 @@ Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const P
   }
   if (auto* catmull_clark = std::get_if<CatmullClark>(&*scheme))
     catmull_clark->triangles = cage.triangle_subdivision_rule;
-  return *std::move(scheme);
+  return *scheme;
 }
 
 // Whether the first step must make quads of the faces.

@@ -76,6 +76,15 @@ ControlMesh with_channels(ControlMesh mesh) {
   return mesh;
 }
 
+// As a renderer has it whose every corner is a vertex of its own.
+ControlMesh with_render_mesh(ControlMesh mesh) {
+  RenderMesh render{0, static_cast<Index>(mesh.face_count()), 0, {}};
+  for (std::size_t c = 0; c < mesh.face_vertex_indices.size(); ++c)
+    render.indices.push_back(render.vertex_count++);
+  mesh.render_meshes = {std::move(render)};
+  return mesh;
+}
+
 // Of some `size` * 1,000 corners each.
 std::vector<shapes::NamedShape> meshes_of(Index size) {
   ControlMesh mixed = apart(250 * size, 4);  // as many corners as quads have
@@ -89,7 +98,10 @@ std::vector<shapes::NamedShape> meshes_of(Index size) {
           {"a hub", hub(333 * size)},
           {"one face", apart(1, 1000 * size)},
           {"seams", with_channels(sheet(side, 3))},
-          {"seams of quads", with_channels(sheet(side, 4))}};
+          {"seams of quads", with_channels(sheet(side, 4))},
+          {"rendered quads", with_render_mesh(sheet(side, 4))},
+          {"rendered polygons", with_render_mesh(sheet(side, 3))},
+          {"rendered polygons with seams", with_render_mesh(with_channels(sheet(side, 3)))}};
 }
 
 TEST(Memory, of_a_plan_is_known_before) {
