@@ -74,6 +74,16 @@ void add_assets(std::vector<Request>& list, const std::string& sources) {
   const std::string curve = file_text(sources + "/tests/shapes/curve.json");
   add(list, "curves", 4, post("/v1/refine?level=4&normals=true", curve));
   add(list, "curves to GLB", 2, post("/v1/refine?level=5&format=glb", curve));
+  const std::string house = file_text(sources + "/tests/shapes/house.json");
+  for (const int level : {0, 1, 4})
+    add(list, "polygons, level " + std::to_string(level), 3,
+        post("/v1/refine?normals=true&limit=true&level=" + std::to_string(level), house));
+  add(list, "polygons to GLB", 3, post("/v1/refine?level=3&format=glb&normals=true", house));
+  add(list, "GLB by Catmull-Clark", 2,
+      post("/v1/refine?level=2&subdivisionScheme=catmullClark&normals=true", glb, kGlb));
+  add(list, "triangles by Catmull-Clark", 2,
+      post("/v1/refine?level=2&subdivisionScheme=catmullClark", sheet_json(30, 30)));
+  add(list, "bilinear", 1, post("/v1/refine?level=3&subdivisionScheme=bilinear", sheet_json(10, 10)));
   add(list, "verify", 2, post("/v1/verify?level=3", file_text(sources + "/tests/shapes/cube.json")));
   add(list, "verify", 2, post("/v1/verify?level=2&limit=true", sheet_json(8, 8)));
   add(list, "verify", 2, post("/v1/verify?level=4", curve));
@@ -161,6 +171,8 @@ std::vector<Request> refused_requests(const std::string& sources) {
               post("/v1/refine", R"({"points":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,3]})"));
   add_refused(list, 422, "a misspelt member",
               post("/v1/refine", R"({"pionts":[[0,0,0],[1,0,0],[0,1,0]],"faceVertexIndices":[0,1,2]})"));
+  add_refused(list, 422, "polygons by Loop's scheme",
+              post("/v1/refine?subdivisionScheme=loop", file_text(sources + "/tests/shapes/house.json")));
   add_refused(list, 422, "nothing to refine", post("/v1/refine", "{}"));
   add_refused(list, 422, "too high a level", post("/v1/refine?level=12", mesh));
   add_refused(list, 422, "too large an answer", post("/v1/refine?level=8", glb, kGlb));
