@@ -59,16 +59,17 @@ struct FarTiming::State {
 };
 
 FarTiming::FarTiming(const FarCage& cage) : state_(std::make_unique<State>()) {
-  state_->face_sizes.assign(cage.triangles.size() / 3, 3);
+  state_->face_sizes.assign(cage.corners.size() / static_cast<std::size_t>(cage.face_size), cage.face_size);
   Far::TopologyDescriptor& descriptor = state_->descriptor;
   descriptor.numVertices = cage.vertex_count;
   descriptor.numFaces = static_cast<int>(state_->face_sizes.size());
   descriptor.numVertsPerFace = state_->face_sizes.data();
-  descriptor.vertIndicesPerFace = cage.triangles.data();
+  descriptor.vertIndicesPerFace = cage.corners.data();
   descriptor.numCreases = static_cast<int>(cage.crease_sharpnesses.size());
   descriptor.creaseVertexIndexPairs = cage.creases.data();
   descriptor.creaseWeights = cage.crease_sharpnesses.data();
-  state_->options = Factory::Options(Sdc::SCHEME_LOOP, options_of(cage.boundary));
+  state_->options = Factory::Options(cage.face_size == 3 ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK,
+                                     options_of(cage.boundary));
 }
 
 FarTiming::~FarTiming() = default;
@@ -87,9 +88,7 @@ void FarTiming::refine(int level, bool full_last_level) {
 std::size_t FarTiming::point_count() const {
   return static_cast<std::size_t>(state_->last().GetNumVertices());
 }
-std::size_t FarTiming::triangle_count() const {
-  return static_cast<std::size_t>(state_->last().GetNumFaces());
-}
+std::size_t FarTiming::face_count() const { return static_cast<std::size_t>(state_->last().GetNumFaces()); }
 
 void FarTiming::interpolate(const float* control, float* points) const {
   const Far::PrimvarRefiner primvars(*state_->refiner);
@@ -108,12 +107,12 @@ void FarTiming::interpolate(const float* control, float* points) const {
   }
 }
 
-void FarTiming::extract(std::uint32_t* triangles) const {
+void FarTiming::extract(std::uint32_t* corners) const {
   const Far::TopologyLevel& level = state_->last();
-  const int count = level.GetNumFaces();
-  for (int face = 0; face < count; ++face, triangles += 3) {
-    const Far::ConstIndexArray corners = level.GetFaceVertices(face);
-    for (int k = 0; k < 3; ++k) triangles[k] = static_cast<std::uint32_t>(corners[k]);
+  const int count = level.GetNumFaces(), size = state_->face_sizes.front();
+  for (int face = 0; face < count; ++face, corners += size) {
+    const Far::ConstIndexArray vertices = level.GetFaceVertices(face);
+    for (int k = 0; k < size; ++k) corners[k] = static_cast<std::uint32_t>(vertices[k]);
   }
 }
 

@@ -13,8 +13,9 @@ namespace subdivd::oracle {
 // What Far's TopologyDescriptor points at. The arrays must outlive the FarTiming.
 struct FarCage {
   int vertex_count = 0;
-  std::span<const int> triangles;  // 3 per face
-  std::span<const int> creases;    // 2 per creased edge
+  int face_size = 3;             // 3: Loop's scheme; 4: Catmull and Clark's
+  std::span<const int> corners;  // face_size per face
+  std::span<const int> creases;  // 2 per creased edge
   std::span<const float> crease_sharpnesses;
   BoundaryInterpolation boundary = BoundaryInterpolation::edge_and_corner;
 };
@@ -33,10 +34,10 @@ class FarTiming {
   // RefineUniform to `level` >= 1. Limits need the full topology in the last level; nothing else does.
   void refine(int level, bool full_last_level);
   std::size_t point_count() const;
-  std::size_t triangle_count() const;
+  std::size_t face_count() const;
   // PrimvarRefiner::Interpolate through all levels, the last one straight into `points`.
   void interpolate(const float* control, float* points) const;
-  void extract(std::uint32_t* triangles) const;
+  void extract(std::uint32_t* corners) const;
   // PrimvarRefiner::Limit with two tangents.
   void limit(const float* points, float* limits, float* tangents_u, float* tangents_v) const;
 

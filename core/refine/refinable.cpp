@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/engine/quad_grid/evaluate.h"
-#include "core/engine/tri_grid/evaluate.h"
+#include "core/engine/grid/evaluate.h"
 
 namespace subdivd {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/base/result.h"
+#include "core/engine/grid/evaluate.h"
 #include "core/engine/grid/evaluated.h"
 #include "core/engine/net.h"
 #include "core/lattice/lattice.h"
@@ -53,10 +54,7 @@ class Refinable {
 template <class Real>
 Result<void> evaluate(const Refinable& part, Index level, std::span<const Real> control, Index width,
                       Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  Buffer<Real> copy;
-  copy.reserve(control.size() + kSpareControl);
-  copy.assign(control.begin(), control.end());
-  return part.evaluate(level, std::move(copy), width, smoothing, out, threads, budget);
+  return part.evaluate(level, copy_of_control(control), width, smoothing, out, threads, budget);
 }
 
 // Grids from level 0 on.

@@ -38,20 +38,24 @@ struct Case {
   }
   Plan plan() const { return must(Plan::build(workload->mesh, plan_options(), {})); }
   oracle::FarCage cage() const {
-    return {static_cast<int>(workload->mesh.point_count()), workload->triangles, workload->creases,
-            workload->mesh.crease_sharpnesses, workload->mesh.interpolate_boundary};
+    return {.vertex_count = static_cast<int>(workload->mesh.point_count()),
+            .face_size = workload->face_size,
+            .corners = workload->corners,
+            .creases = workload->creases,
+            .crease_sharpnesses = workload->mesh.crease_sharpnesses,
+            .boundary = workload->mesh.interpolate_boundary};
   }
 };
 
 // Written to before anything is timed: no page is new to whoever fills it.
 struct Output {
   Buffer<float> points;
-  Buffer<Index> triangles;
+  Buffer<Index> faces;
 
   explicit Output(const LevelCounts& counts)
-      : points(3 * counts.vertices, 0.f), triangles(3 * counts.faces, 0u) {}
+      : points(3 * counts.vertices, 0.f), faces(counts.face_size * counts.faces, 0u) {}
   explicit Output(const Case& cell) : Output(cell.plan().counts(cell.level)) {}
-  std::size_t bytes() const { return points.size() * sizeof(float) + triangles.size() * sizeof(Index); }
+  std::size_t bytes() const { return points.size() * sizeof(float) + faces.size() * sizeof(Index); }
 };
 
 struct OurTimes {
@@ -67,7 +71,7 @@ inline OurTimes run_ours(const Case& cell, Index threads, Output& out) {
   must(evaluate<float>(plan.mesh(), cell.level, cell.workload->points, 3, Smoothing::smooth,
                        {.values = out.points.data()}, threads, {}));
   times.evaluate = stopwatch.lap();
-  must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.triangles.data(), threads, {}));
+  must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.faces.data(), threads, {}));
   times.indices = stopwatch.lap();
   return times;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -35,7 +36,7 @@ Laps run_far(const Case& cell, FarTiming& far, Output& out) {
   laps.emplace_back("refine", stopwatch.lap());
   far.interpolate(cell.workload->points.data(), out.points.data());
   laps.emplace_back("evaluate", stopwatch.lap());
-  far.extract(out.triangles.data());
+  far.extract(out.faces.data());
   laps.emplace_back("indices", stopwatch.lap());
   far.release();  // not timed, for nobody
   double total = 0;
@@ -45,8 +46,8 @@ Laps run_far(const Case& cell, FarTiming& far, Output& out) {
 }
 
 Laps run_peer(const Case& cell, const Peer& peer, Output& out) {
-  const PeerTimes times = peer.run({cell.workload->points, cell.workload->triangles,
-                                    static_cast<int>(cell.level), out.points, out.triangles});
+  const PeerTimes times = peer.run(
+      {cell.workload->points, cell.workload->corners, static_cast<int>(cell.level), out.points, out.faces});
   if (!times.ok) return {};
   return {{"plan", times.build},
           {"refine", times.refine},
@@ -71,7 +72,8 @@ bool same_answer(const Case& cell) {
   FarTiming far(cell.cage());
   if (!far.create()) return false;
   far.refine(static_cast<int>(cell.level), false);
-  if (3 * far.point_count() != ours.points.size() || 3 * far.triangle_count() != ours.triangles.size())
+  if (3 * far.point_count() != ours.points.size() ||
+      static_cast<std::size_t>(cell.workload->face_size) * far.face_count() != ours.faces.size())
     return false;
   far.interpolate(cell.workload->points.data(), theirs.points.data());
   const std::vector<double> a = moments(ours.points), b = moments(theirs.points);
@@ -83,7 +85,7 @@ bool same_answer(const Case& cell) {
 double time_total(const Case& cell, const Pace& pace, Results& results) {
   Output out(cell);
   const Buffer<float> points = out.points;
-  const Buffer<Index> triangles = out.triangles;
+  const Buffer<Index> faces = out.faces;
   FarTiming far(cell.cage());
   Contest contest;
   contest.enter("ours", [&]() -> Laps {
@@ -97,24 +99,27 @@ double time_total(const Case& cell, const Pace& pace, Results& results) {
   contest.enter("memset", [&] {
     return timed("total", [&] {
       std::memset(out.points.data(), 1, out.points.size() * sizeof(float));
-      std::memset(out.triangles.data(), 1, out.triangles.size() * sizeof(Index));
+      std::memset(out.faces.data(), 1, out.faces.size() * sizeof(Index));
     });
   });
   contest.enter("memcpy", [&] {
     return timed("total", [&] {
       std::memcpy(out.points.data(), points.data(), points.size() * sizeof(float));
-      std::memcpy(out.triangles.data(), triangles.data(), triangles.size() * sizeof(Index));
+      std::memcpy(out.faces.data(), faces.data(), faces.size() * sizeof(Index));
     });
   });
+  // The peers are asked for Loop's scheme.
   for (const Peer& peer : installed_peers())
-    contest.enter(
-        peer.name, [&cell, &out, peer] { return run_peer(cell, peer, out); }, 4);
+    if (cell.workload->face_size == 3)
+      contest.enter(
+          peer.name, [&cell, &out, peer] { return run_peer(cell, peer, out); }, 4);
   return contest.hold(pace, cell.name(), "total", results);
 }
 
-// The plan keeps its own to itself.
+// The plan keeps its own to itself. Of triangles; of other faces there is no floor.
 Topology<Triangles> topology_of(const Case& cell) {
   const ControlMesh& mesh = cell.workload->mesh;
+  if (cell.workload->face_size != 3) return {};
   return Topology<Triangles>(static_cast<Index>(mesh.point_count()), Triangles(mesh.face_vertex_indices));
 }
 
@@ -135,7 +140,7 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     const double without = stopwatch.lap();
     evaluate_ours(plan, {.values = out.points.data(), .limits = limits.data(), .normals = normals.data()});
     const double with = stopwatch.lap();
-    must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.triangles.data(), 1, {}));
+    must(plan.mesh().lattice()->write_faces(cell.level, plan.holes(), out.faces.data(), 1, {}));
     return {{"limits", with - without}, {"total_limits", planned + with + stopwatch.lap()}};
   });
   contest.enter("Far", [&]() -> Laps {
@@ -143,7 +148,7 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     far.create();
     far.refine(static_cast<int>(cell.level), true);
     far.interpolate(control.data(), out.points.data());
-    far.extract(out.triangles.data());
+    far.extract(out.faces.data());
     const double rest = stopwatch.lap();
     far.limit(out.points.data(), limits.data(), u.data(), v.data());
     const double limit = stopwatch.lap();
@@ -152,12 +157,14 @@ double time_limits(const Case& cell, const Pace& pace, Results& results) {
     far.release();
     return {{"limits", limit}, {"normals", last}, {"total_limits", rest + limit + last}};
   });
-  const Plan plan = cell.plan();
   const Topology<Triangles> topology = topology_of(cell);
-  Floor floor(topology, cell.level);
-  // `u` serves as the refined points.
-  contest.enter("floor",
-                [&] { return timed("limits", [&] { floor.limit(u, limits.data(), normals.data()); }); });
+  std::optional<Floor> floor;
+  if (cell.workload->face_size == 3) {
+    floor.emplace(topology, cell.level);
+    // `u` serves as the refined points.
+    contest.enter("floor",
+                  [&] { return timed("limits", [&] { floor->limit(u, limits.data(), normals.data()); }); });
+  }
   return contest.hold(pace, cell.name(), "limits", results);
 }
 
@@ -187,9 +194,12 @@ double time_again(const Case& cell, const Pace& pace, Results& results) {
   enter("Far", [&] { far.update_stencils(control.data(), out.points.data()); });
   enter("base", [&] { far.evaluate_stencils(control.data(), out.points.data()); });
   const Topology<Triangles> topology = topology_of(cell);
-  Floor floor(topology, cell.level);
+  std::optional<Floor> floor;
   Buffer<float> written = like(out);
-  enter("floor", [&] { floor.refine(control, written.data()); });
+  if (cell.workload->face_size == 3) {
+    floor.emplace(topology, cell.level);
+    enter("floor", [&] { floor->refine(control, written.data()); });
+  }
   return contest.hold(pace, cell.name(), "again", results);
 }
 
@@ -211,7 +221,7 @@ double time_threads(const Case& cell, const Pace& pace, Results& results) {
       std::memset(items.data() + begin, 1, (end - begin) * sizeof items[0]);
     };
     half(out.points);
-    half(out.triangles);
+    half(out.faces);
   };
   contest.enter("memset", [&fill] {
     return timed("threads", [&fill] {

@@ -12,7 +12,7 @@ namespace {
 
 std::string glb_of(const Workload& workload) {
   test::GltfBuilder builder;
-  const std::vector<std::uint32_t> indices(workload.triangles.begin(), workload.triangles.end());
+  const std::vector<std::uint32_t> indices(workload.corners.begin(), workload.corners.end());
   const int positions = builder.values(workload.points, 3);
   std::vector<float> least(workload.points.begin(), workload.points.begin() + 3), most = least;
   for (std::size_t k = 0; k < workload.points.size(); ++k) {
@@ -30,7 +30,9 @@ std::string glb_of(const Workload& workload) {
 Workload decoded(const Workload& workload, const std::string& glb) {
   const proto::RefineRequest request =
       must(proto::decode_refine(glb, proto::BodyKind::glb, {}, proto::Limits{}));
-  Workload made{workload.name, {}, request.meshes[0], {}, {}, {}};
+  Workload made;
+  made.name = workload.name;
+  made.mesh = request.meshes[0];
   made.points.assign(made.mesh.points.begin(), made.mesh.points.end());
   return made;
 }

@@ -97,7 +97,7 @@ int run(int argc, char** argv) {
   const Pace pace = flags.quick ? kQuick : kThorough;
   Results results;
   std::deque<Workload> workloads;
-  for (const auto& make : {icosahedron, blob100k, torus1m, model6k}) {
+  for (const auto& make : {icosahedron, blob100k, torus1m, model6k, quads6k, quads100k, quads1m}) {
     const Workload& workload = workloads.emplace_back(make());
     must(workload.mesh.check());
     for (const Index level : workload.levels) add_cell({&workload, level}, pace, results);

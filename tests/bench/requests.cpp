@@ -119,8 +119,7 @@ std::string jar_glb() {
   const Workload jar = model6k();
   test::GltfBuilder builder;
   const int positions = positions_of(builder, jar.points);
-  builder.mesh({{"POSITION", positions}},
-               builder.values(Corners(jar.triangles.begin(), jar.triangles.end()), 1));
+  builder.mesh({{"POSITION", positions}}, builder.values(Corners(jar.corners.begin(), jar.corners.end()), 1));
   return builder.glb();
 }
 
@@ -130,7 +129,7 @@ std::vector<Asset> request_assets() {
   Random random(7);
   const Workload scan = scan120k();
   const std::vector<std::uint8_t> colours = colours_of(scan.points, random);
-  const Corners corners(scan.triangles.begin(), scan.triangles.end());
+  const Corners corners(scan.corners.begin(), scan.corners.end());
   return {{"scan120k", scan_glb(scan.points, colours, corners)},
           {"shuffled120k", shuffled_scan_glb(scan.points, colours, corners, random)},
           {"textured15k", textured_glb()},

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/refine/refine.h"
 #include "tests/bench/flips.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/random.h"
@@ -17,12 +18,18 @@ using shapes::Random;
 using Point = std::array<double, 3>;
 
 Workload workload(std::string name, std::vector<Index> levels, ControlMesh mesh) {
-  Workload made{std::move(name), std::move(levels), std::move(mesh), {}, {}, {}};
+  Workload made{.name = std::move(name),
+                .levels = std::move(levels),
+                .mesh = std::move(mesh),
+                .points = {},
+                .corners = {},
+                .creases = {}};
   made.mesh.name = made.name;
   // Every contestant gets the same numbers.
   made.points.assign(made.mesh.points.begin(), made.mesh.points.end());
   made.mesh.points.assign(made.points.begin(), made.points.end());
-  made.triangles.assign(made.mesh.face_vertex_indices.begin(), made.mesh.face_vertex_indices.end());
+  made.corners.assign(made.mesh.face_vertex_indices.begin(), made.mesh.face_vertex_indices.end());
+  if (!made.mesh.face_vertex_counts.empty()) made.face_size = 4;
   made.creases.assign(made.mesh.crease_indices.begin(), made.mesh.crease_indices.end());
   return made;
 }
@@ -35,10 +42,14 @@ void add_triangle(ControlMesh& mesh, Index a, Index b, Index c) {
   mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), {a, b, c});
 }
 
-// The quad a b c d, counter-clockwise, cut along one of its diagonals.
-void add_quad(ControlMesh& mesh, const std::array<Index, 4>& quad, bool other_diagonal) {
+// How a quad a b c d, counter-clockwise, is kept: whole, or cut along one of its diagonals.
+enum class Cut { none, diagonal, other_diagonal };
+void add_quad(ControlMesh& mesh, const std::array<Index, 4>& quad, Cut cut) {
   const auto [a, b, c, d] = quad;
-  if (other_diagonal) {
+  if (cut == Cut::none) {
+    mesh.face_vertex_counts.push_back(4);
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), quad.begin(), quad.end());
+  } else if (cut == Cut::other_diagonal) {
     add_triangle(mesh, a, b, d);
     add_triangle(mesh, b, c, d);
   } else {
@@ -120,8 +131,6 @@ ControlMesh lumpy_sphere(Index m, std::uint64_t seed) {
   return mesh;
 }
 
-constexpr Index kColumns = 60, kRows = 51;
-
 double jar_radius(double height) { return 0.6 + 0.25 * std::sin(4 * height) + 0.05 * std::cos(13 * height); }
 
 // One crease per edge, as modellers export them.
@@ -130,17 +139,66 @@ void crease(ControlMesh& mesh, const std::vector<Index>& points, float sharpness
     shapes::crease(mesh, {points[k], points[k + 1]}, sharpness);
 }
 
-std::vector<Index> ring(Index row) {
-  std::vector<Index> points;
-  for (Index column = 0; column <= kColumns; ++column) points.push_back(row * kColumns + column % kColumns);
-  return points;
+// A jar of columns x rows quads, open above and below, with two slots; rows and columns of tags are those of 51 and 60.
+// Which way quads are cut is `cut`'s to say.
+template <class CutOf>
+ControlMesh jar(Index columns, Index rows, CutOf&& cut) {
+  ControlMesh mesh;
+  for (Index row = 0; row <= rows; ++row)
+    for (Index column = 0; column < columns; ++column) {
+      const double around = 2 * std::numbers::pi * column / columns, height = 2.0 * row / rows - 1;
+      const double radius = jar_radius(height);
+      add_point(mesh, {radius * std::cos(around), radius * std::sin(around), height});
+    }
+  for (Index row = 0; row < rows; ++row)
+    for (Index column = 0; column < columns; ++column) {
+      const bool slot = (row == 20 || row == 30) && column >= 10 && column < 25;
+      if (slot) continue;  // one row high, so that every point is still used
+      const Index right = (column + 1) % columns;
+      add_quad(mesh,
+               {row * columns + column, row * columns + right, (row + 1) * columns + right,
+                (row + 1) * columns + column},
+               cut());
+    }
+  const auto ring = [&](Index row) {
+    std::vector<Index> points;
+    for (Index column = 0; column <= columns; ++column) points.push_back(row * columns + column % columns);
+    return points;
+  };
+  const auto seam = [&](Index column, Index first_row, Index last_row) {
+    std::vector<Index> points;
+    for (Index row = first_row; row <= last_row; ++row) points.push_back(row * columns + column);
+    return points;
+  };
+  for (const Index row : {2, 3, 48, 49}) crease(mesh, ring(row), kInfiniteSharpness);
+  crease(mesh, ring(12), 2.5f);
+  crease(mesh, ring(40), 1.3f);
+  crease(mesh, seam(0, 3, 48), 3.0f);
+  crease(mesh, seam(35, 12, 40), 0.7f);
+  return mesh;
 }
 
-std::vector<Index> seam(Index column, Index first_row, Index last_row) {
-  std::vector<Index> points;
-  for (Index row = first_row; row <= last_row; ++row) points.push_back(row * kColumns + column);
-  return points;
+// A torus of around x along quads with jittered points.
+template <class CutOf>
+ControlMesh torus(Index around, Index along, Random& random, CutOf&& cut) {
+  ControlMesh mesh;
+  for (Index row = 0; row < along; ++row)
+    for (Index column = 0; column < around; ++column) {
+      const double u = 2 * std::numbers::pi * (column + 0.3 * random.centred()) / around;
+      const double v = 2 * std::numbers::pi * (row + 0.3 * random.centred()) / along;
+      const double radius = 1 + 0.4 * std::cos(v);
+      add_point(mesh, {radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v)});
+    }
+  for (Index row = 0; row < along; ++row)
+    for (Index column = 0; column < around; ++column) {
+      const Index right = (column + 1) % around, up = (row + 1) % along;
+      add_quad(mesh, {row * around + column, row * around + right, up * around + right, up * around + column},
+               cut());
+    }
+  return mesh;
 }
+
+constexpr auto kWhole = [] { return Cut::none; };
 
 }  // namespace
 
@@ -151,51 +209,34 @@ Workload blob100k() { return workload("blob100k", {1, 2, 3}, lumpy_sphere(112, 3
 Workload scan120k() { return workload("scan120k", {1, 2, 3}, lumpy_sphere(122, 6)); }
 
 Workload torus1m() {
-  constexpr Index kAround = 1000, kAlong = 500;
   Random random(4);
-  ControlMesh mesh;
-  for (Index row = 0; row < kAlong; ++row)
-    for (Index column = 0; column < kAround; ++column) {
-      const double u = 2 * std::numbers::pi * (column + 0.3 * random.centred()) / kAround;
-      const double v = 2 * std::numbers::pi * (row + 0.3 * random.centred()) / kAlong;
-      const double radius = 1 + 0.4 * std::cos(v);
-      add_point(mesh, {radius * std::cos(u), radius * std::sin(u), 0.4 * std::sin(v)});
-    }
-  for (Index row = 0; row < kAlong; ++row)
-    for (Index column = 0; column < kAround; ++column) {
-      const Index right = (column + 1) % kAround, up = (row + 1) % kAlong;
-      add_quad(mesh,
-               {row * kAround + column, row * kAround + right, up * kAround + right, up * kAround + column},
-               random.one_in(2));
-    }
-  return workload("torus1m", {1, 2}, std::move(mesh));
+  return workload("torus1m", {1, 2}, torus(1000, 500, random, [&] {
+                    return random.one_in(2) ? Cut::other_diagonal : Cut::diagonal;
+                  }));
 }
 
 Workload model6k() {
   Random random(5);
+  return workload("model6k", {3, 4, 5},
+                  jar(60, 51, [&] { return random.one_in(4) ? Cut::other_diagonal : Cut::diagonal; }));
+}
+
+Workload quads6k() { return workload("quads6k", {3, 4, 5}, jar(120, 51, kWhole)); }
+
+Workload quads100k() {
+  ControlMesh triangles = lumpy_sphere(65, 7);
+  triangles.subdivision_scheme = "bilinear";
+  const auto cut = refine<double>(triangles, {.level = 1}, {}).value();
   ControlMesh mesh;
-  for (Index row = 0; row <= kRows; ++row)
-    for (Index column = 0; column < kColumns; ++column) {
-      const double around = 2 * std::numbers::pi * column / kColumns, height = 2.0 * row / kRows - 1;
-      const double radius = jar_radius(height);
-      add_point(mesh, {radius * std::cos(around), radius * std::sin(around), height});
-    }
-  for (Index row = 0; row < kRows; ++row)
-    for (Index column = 0; column < kColumns; ++column) {
-      const bool slot = (row == 20 || row == 30) && column >= 10 && column < 25;
-      if (slot) continue;  // one row high, so that every point is still used
-      const Index right = (column + 1) % kColumns;
-      add_quad(mesh,
-               {row * kColumns + column, row * kColumns + right, (row + 1) * kColumns + right,
-                (row + 1) * kColumns + column},
-               random.one_in(4));
-    }
-  for (const Index row : {2, 3, 48, 49}) crease(mesh, ring(row), kInfiniteSharpness);
-  crease(mesh, ring(12), 2.5f);
-  crease(mesh, ring(40), 1.3f);
-  crease(mesh, seam(0, 3, 48), 3.0f);
-  crease(mesh, seam(35, 12, 40), 0.7f);
-  return workload("model6k", {3, 4, 5}, std::move(mesh));
+  mesh.points.assign(cut.points.begin(), cut.points.end());
+  mesh.face_vertex_counts.assign(cut.face_count, 4);
+  mesh.face_vertex_indices.assign(cut.faces.begin(), cut.faces.end());
+  return workload("quads100k", {2, 3}, std::move(mesh));
+}
+
+Workload quads1m() {
+  Random random(8);
+  return workload("quads1m", {1, 2}, torus(1000, 1000, random, kWhole));
 }
 
 }  // namespace subdivd::bench

@@ -16,7 +16,8 @@ struct Workload {
   std::vector<float> points;  // the mesh's, in single precision
 
   // The mesh's topology as libraries that count in int want it.
-  std::vector<int> triangles, creases;  // creases: 2 per creased edge
+  int face_size = 3;                  // corners of every face, 3 or 4
+  std::vector<int> corners, creases;  // creases: 2 per creased edge
 };
 
 // icosahedron  12 points, 20 triangles; levels 6 and 8.
@@ -28,10 +29,18 @@ struct Workload {
 //              infinite creases around rim and foot, semi-sharp ones around the shoulders and down two seams;
 //              levels 3 to 5.
 // scan120k     like blob100k, of 119,072 triangles; levels 1 to 3.
+// By Catmull and Clark's scheme:
+// quads6k      the jar of 6,090 quads, with the same creases and slots; levels 3 to 5.
+// quads100k    closed, lumpy, 101,400 quads: every triangle of a lumpy sphere cut into three, two thirds of whose points
+//              are irregular; levels 2 and 3.
+// quads1m      the torus of 1000 x 1000 quads; levels 1 and 2.
 Workload icosahedron();
 Workload blob100k();
 Workload scan120k();
 Workload torus1m();
 Workload model6k();
+Workload quads6k();
+Workload quads100k();
+Workload quads1m();
 
 }  // namespace subdivd::bench

@@ -28,10 +28,10 @@ class IncludeRules : public ::testing::Test {
     fs::remove_all(root_);
     for (const char* header :
          {"core/base/result.h", "core/mesh/topology.h", "core/schemes/all.h", "core/schemes/loop.h",
-          "core/lattice/split.h", "core/limit/limit.h", "core/engine/net.h",
-          "core/engine/tri_grid/evaluate.h", "core/refine/plan.h", "core/splines/bspline.h",
-          "core/curves/subdivision.h", "core/oracle/report.h", "core/oracle/far.h", "proto/wire.h",
-          "server/config.h", "server/transport/transport.h", "server/http/status.h"})
+          "core/lattice/split.h", "core/limit/limit.h", "core/engine/net.h", "core/engine/grid/evaluate.h",
+          "core/refine/plan.h", "core/splines/bspline.h", "core/curves/subdivision.h", "core/oracle/report.h",
+          "core/oracle/far.h", "proto/wire.h", "server/config.h", "server/transport/transport.h",
+          "server/http/status.h"})
       write(header, "#pragma once");
   }
   void TearDown() override { fs::remove_all(root_); }
@@ -71,7 +71,7 @@ TEST_F(IncludeRules, refuses_a_curve_among_the_splines) {
 TEST_F(IncludeRules, accepts_a_tree_without_strays) { EXPECT_THAT(check_includes(root_), IsEmpty()); }
 
 TEST_F(IncludeRules, accepts_an_arrow_that_is_drawn) {
-  EXPECT_THAT(planted("core/refine/a.cpp", "#include \"core/engine/tri_grid/evaluate.h\""), IsEmpty());
+  EXPECT_THAT(planted("core/refine/a.cpp", "#include \"core/engine/grid/evaluate.h\""), IsEmpty());
 }
 
 TEST_F(IncludeRules, rejects_core_including_proto) {
@@ -96,12 +96,12 @@ TEST_F(IncludeRules, rejects_an_engine_including_refine) {
               one_at("core/engine/tri_grid/a.h", "core/refine/plan.h"));
 }
 TEST_F(IncludeRules, rejects_what_engines_share_including_one_of_them) {
-  EXPECT_THAT(planted("core/engine/a.h", "#include \"core/engine/tri_grid/evaluate.h\""),
-              one_at("core/engine/a.h", "core/engine/tri_grid/evaluate.h"));
+  EXPECT_THAT(planted("core/engine/a.h", "#include \"core/engine/grid/evaluate.h\""),
+              one_at("core/engine/a.h", "core/engine/grid/evaluate.h"));
 }
 TEST_F(IncludeRules, rejects_one_engine_including_another) {
-  EXPECT_THAT(planted("core/engine/plain/a.h", "#include \"core/engine/tri_grid/evaluate.h\""),
-              one_at("core/engine/plain/a.h", "core/engine/tri_grid/evaluate.h"));
+  EXPECT_THAT(planted("core/engine/plain/a.h", "#include \"core/engine/grid/evaluate.h\""),
+              one_at("core/engine/plain/a.h", "core/engine/grid/evaluate.h"));
 }
 TEST_F(IncludeRules, rejects_limits_including_an_engine) {
   EXPECT_THAT(planted("core/limit/a.h", "#include \"core/engine/net.h\""),

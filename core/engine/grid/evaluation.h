@@ -17,6 +17,7 @@
 #include "core/base/result.h"
 #include "core/engine/grid/base_edges.h"
 #include "core/engine/grid/base_vertices.h"
+#include "core/engine/grid/evaluate.h"
 #include "core/engine/grid/evaluated.h"
 #include "core/engine/grid/kernels/step.h"
 #include "core/engine/grid/regular_ring.h"
@@ -33,7 +34,6 @@ namespace subdivd {
 //   row_scratch(n)              scalars that a step needs
 //   masks<Real>(scheme, method) of a step: the masks of what is regular and settled; linear_masks<Real>(): of midpoints
 //   set_limit_masks(limit, scheme), set_linear_limit_masks(limit)
-//   step<Real>(topology)        a step with the mesh's arrays in it
 //   face_row(piece, n, whole)   cuts 0..face_count * n^2 pieces into rows of faces, or whole ones
 //   has_inside(n)               whether faces of n segments get points inside
 template <class Grid, class Scheme, class Real>
@@ -62,7 +62,7 @@ class GridEvaluation {
     else if (out.wants_limits())
       vertices_.prepare_limits(level, pace);
     vertex_masks_ = vertices_.smooth_masks();
-    topology_step_ = Grid::template step<Real>(net.topology());
+    set_topology(topology_step_, net.topology());
     topology_step_.masks = linear_ ? Grid::template linear_masks<Real>()
                                    : Grid::template masks<Real>(scheme_, net.crease_method());
     if (out.wants_limits()) limit_masks_ = vertices_.limit_masks();
@@ -95,6 +95,23 @@ class GridEvaluation {
   static void set_size(Buffer<Real>& buffer, Count size) {
     buffer.resize(size + kSpare);
     std::fill(buffer.end() - kSpare, buffer.end(), Real(0));
+  }
+
+  static void set_topology(Step& step, const Topology<Faces>& topology) {
+    const auto pairs = [](std::span<const std::array<Index, 2>> all) {
+      return all.empty() ? nullptr : all[0].data();
+    };
+    step.corners = topology.corner_vertices().data();
+    step.half_edge_edges = topology.half_edge_edges().data();
+    step.edge_vertices = pairs(topology.edge_vertices());
+    step.edge_sides = pairs(topology.edge_sides());
+    step.vertex_edges = topology.all_vertex_edges().data();
+    step.vertex_edge_offsets = topology.vertex_edge_offsets().data();
+    step.vertex_corners = topology.all_vertex_corners().data();
+    step.vertex_corner_offsets = topology.vertex_corner_offsets().data();
+    step.vertex_count = topology.vertex_count();
+    step.edge_count = topology.edge_count();
+    step.face_count = topology.face_count();
   }
 
   // The array of a level.
@@ -374,15 +391,6 @@ Result<void> evaluate_on_grid(const Net<typename Grid::Faces>& net, Index level,
         }
       },
       net.scheme());
-}
-
-// With room for what steps read past the end.
-template <class Real>
-Buffer<Real> copy_of_control(std::span<const Real> control) {
-  Buffer<Real> copy;
-  copy.reserve(control.size() + kSpareControl);
-  copy.assign(control.begin(), control.end());
-  return copy;
 }
 
 }  // namespace subdivd

@@ -1,8 +1,7 @@
-#include "core/engine/quad_grid/evaluate.h"
+// The engine of grids of quads: core/engine/grid/evaluate.h.
 
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "core/engine/grid/evaluation.h"
@@ -46,26 +45,6 @@ struct QuadGrid {
     return {.self = 1, .side = 0, .middle = Real(0.5), .crease_self = 1, .crease_side = 0};
   }
 
-  template <class Real>
-  static Step<Real> step(const Topology<Quads>& topology) {
-    const auto pairs = [](std::span<const std::array<Index, 2>> all) {
-      return all.empty() ? nullptr : all[0].data();
-    };
-    Step<Real> step{};
-    step.corners = topology.corner_vertices().data();
-    step.half_edge_edges = topology.half_edge_edges().data();
-    step.edge_vertices = pairs(topology.edge_vertices());
-    step.edge_sides = pairs(topology.edge_sides());
-    step.vertex_edges = topology.all_vertex_edges().data();
-    step.vertex_edge_offsets = topology.vertex_edge_offsets().data();
-    step.vertex_corners = topology.all_vertex_corners().data();
-    step.vertex_corner_offsets = topology.vertex_corner_offsets().data();
-    step.vertex_count = topology.vertex_count();
-    step.edge_count = topology.edge_count();
-    step.face_count = topology.face_count();
-    return step;
-  }
-
   template <class Real, class Scheme>
   static void set_limit_masks(kernels::QuadLimit<Real>& limit, const Scheme& scheme) {
     const double side = std::sqrt(scheme.smooth_limit_mask(Scheme::regular_valence).face);
@@ -89,26 +68,16 @@ struct QuadGrid {
 
 }  // namespace
 
-template <class Real>
-Result<void> evaluate(const Net<Quads>& net, Index level, Buffer<Real>&& control, Index width,
-                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  return evaluate_on_grid<QuadGrid, Real>(net, level, std::move(control), width, smoothing, out, threads,
-                                          budget);
-}
-
-template <class Real>
-Result<void> evaluate(const Net<Quads>& net, Index level, std::span<const Real> control, Index width,
-                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  return evaluate<Real>(net, level, copy_of_control(control), width, smoothing, out, threads, budget);
-}
-
-#define SUBDIVD_INSTANTIATE(Real)                                                                   \
-  template Result<void> evaluate(const Net<Quads>&, Index, std::span<const Real>, Index, Smoothing, \
-                                 const Evaluated<Real>&, Index, const Budget&);                     \
-  template Result<void> evaluate(const Net<Quads>&, Index, Buffer<Real>&&, Index, Smoothing,        \
-                                 const Evaluated<Real>&, Index, const Budget&);
-SUBDIVD_INSTANTIATE(float)
-SUBDIVD_INSTANTIATE(double)
-#undef SUBDIVD_INSTANTIATE
+#define SUBDIVD_DEFINE(Real)                                                                                \
+  template <>                                                                                               \
+  Result<void> evaluate(const Net<Quads>& net, Index level, Buffer<Real>&& control, Index width,            \
+                        Smoothing smoothing, const Evaluated<Real>& out, Index threads,                     \
+                        const Budget& budget) {                                                             \
+    return evaluate_on_grid<QuadGrid, Real>(net, level, std::move(control), width, smoothing, out, threads, \
+                                            budget);                                                        \
+  }
+SUBDIVD_DEFINE(float)
+SUBDIVD_DEFINE(double)
+#undef SUBDIVD_DEFINE
 
 }  // namespace subdivd

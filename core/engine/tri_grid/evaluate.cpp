@@ -1,8 +1,7 @@
-#include "core/engine/tri_grid/evaluate.h"
+// The engine of grids of triangles: core/engine/grid/evaluate.h.
 
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "core/engine/grid/evaluation.h"
@@ -55,24 +54,6 @@ struct TriGrid {
             .crease_edge = Real(0.5)};
   }
 
-  template <class Real>
-  static Step<Real> step(const Topology<Triangles>& topology) {
-    const auto pairs = [](std::span<const std::array<Index, 2>> all) {
-      return all.empty() ? nullptr : all[0].data();
-    };
-    Step<Real> step{};
-    step.triangles = topology.corner_vertices().data();
-    step.half_edge_edges = topology.half_edge_edges().data();
-    step.edge_vertices = pairs(topology.edge_vertices());
-    step.edge_sides = pairs(topology.edge_sides());
-    step.vertex_edges = topology.all_vertex_edges().data();
-    step.vertex_edge_offsets = topology.vertex_edge_offsets().data();
-    step.vertex_count = topology.vertex_count();
-    step.edge_count = topology.edge_count();
-    step.face_count = topology.face_count();
-    return step;
-  }
-
   template <class Real, class Scheme>
   static void set_limit_masks(kernels::TriLimit<Real>& limit, const Scheme& scheme) {
     const VertexMask mask = scheme.smooth_limit_mask(Scheme::regular_valence);
@@ -96,26 +77,16 @@ struct TriGrid {
 
 }  // namespace
 
-template <class Real>
-Result<void> evaluate(const Net<Triangles>& net, Index level, Buffer<Real>&& control, Index width,
-                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  return evaluate_on_grid<TriGrid, Real>(net, level, std::move(control), width, smoothing, out, threads,
-                                         budget);
-}
-
-template <class Real>
-Result<void> evaluate(const Net<Triangles>& net, Index level, std::span<const Real> control, Index width,
-                      Smoothing smoothing, const Evaluated<Real>& out, Index threads, const Budget& budget) {
-  return evaluate<Real>(net, level, copy_of_control(control), width, smoothing, out, threads, budget);
-}
-
-#define SUBDIVD_INSTANTIATE(Real)                                                                       \
-  template Result<void> evaluate(const Net<Triangles>&, Index, std::span<const Real>, Index, Smoothing, \
-                                 const Evaluated<Real>&, Index, const Budget&);                         \
-  template Result<void> evaluate(const Net<Triangles>&, Index, Buffer<Real>&&, Index, Smoothing,        \
-                                 const Evaluated<Real>&, Index, const Budget&);
-SUBDIVD_INSTANTIATE(float)
-SUBDIVD_INSTANTIATE(double)
-#undef SUBDIVD_INSTANTIATE
+#define SUBDIVD_DEFINE(Real)                                                                               \
+  template <>                                                                                              \
+  Result<void> evaluate(const Net<Triangles>& net, Index level, Buffer<Real>&& control, Index width,       \
+                        Smoothing smoothing, const Evaluated<Real>& out, Index threads,                    \
+                        const Budget& budget) {                                                            \
+    return evaluate_on_grid<TriGrid, Real>(net, level, std::move(control), width, smoothing, out, threads, \
+                                           budget);                                                        \
+  }
+SUBDIVD_DEFINE(float)
+SUBDIVD_DEFINE(double)
+#undef SUBDIVD_DEFINE
 
 }  // namespace subdivd

@@ -9,6 +9,29 @@ namespace subdivd::kernels {
 // Tables of masks hold vertices of so many edges at most; core/engine/net.h has the same number.
 inline constexpr Index kListedValence = 64;
 
+// From level `from` (n segments per base edge) to the next; both arrays in the closed-form numbering (core/lattice),
+// `width` scalars per value. A kernel takes 1 to 4 of them: `from` and `to` point to the first.
+template <class Real>
+struct GridStep {
+  const Index* corners;          // vertices, face after face
+  const Index* half_edge_edges;  // one per corner
+  const Index* edge_vertices;    // 2 per edge, the lower first
+  const Index* edge_sides;       // 2 per edge: the half-edge that runs from the lower end, and the other
+  const unsigned char* edge_rules;
+  const Index *vertex_edges, *vertex_edge_offsets;      // rows of edges, one per vertex
+  const Index *vertex_corners, *vertex_corner_offsets;  // rows of corners, likewise
+  const unsigned char* vertex_rules;
+  // Per valence up to kListedValence: weight of the vertex, of each neighbour on an edge, and where faces are quads of
+  // each vertex opposite in one.
+  const Real* vertex_masks;
+  Index vertex_count, edge_count, face_count;
+  Count n;
+  Index width;
+  const Real* from;  // a step may read 3 scalars past its end, a limit may not
+  Real* to;
+  Real* rows;  // scratch, as much as the engine says
+};
+
 // Rows [row, ...) of the faces from `face` on.
 struct FaceRow {
   Index face = 0;
