@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/pace.h"
+#include "core/refine/plan.h"
 #include "proto/gltf/gltf.h"
 #include "proto/json/json.h"
 #include "proto/json/survey.h"
@@ -151,8 +153,8 @@ Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const 
 
 Result<void> make_ready(RefineRequest& request, const QueryParameters& query, const Limits& limits,
                         const Budget& budget) {
-  if (Result<void> fine = check_options(request, limits, query); !fine) return fine;
   override_meshes(request);
+  if (Result<void> fine = check_options(request, limits, query, budget); !fine) return fine;
   if (Result<void> fine = prepare(request, budget); !fine) return fine;
   if (answer_format(request) == Format::json) return {};
   return gltf::add_render_meshes(request, budget);
@@ -161,8 +163,11 @@ Result<void> make_ready(RefineRequest& request, const QueryParameters& query, co
 Result<Prediction> predict_refine(const RefineRequest& request, const Limits& limits, const Budget& budget) {
   std::vector<RefinedSize> sizes;
   Prediction prediction;
-  for (const ControlMesh& mesh : request.meshes)
-    prediction.taken_bytes += plan_bytes(mesh, plan_options(mesh_options(request)));
+  const Result<void> summed = stoppable(budget, [&](const Pace& pace) {
+    for (const ControlMesh& mesh : request.meshes)
+      prediction.taken_bytes += plan_bytes(mesh, plan_options(mesh_options(request)), pace);
+  });
+  if (!summed) return summed.error();
   if (Result<void> taken = budget.take_memory(prediction.taken_bytes); !taken) return taken.error();
   Result<std::vector<Plan>> plans = plan_meshes(request, budget);
   if (!plans) return plans.error();

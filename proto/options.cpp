@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/pace.h"
 #include "core/lattice/split.h"
+#include "core/refine/plan.h"
 #include "core/schemes/all.h"
 #include "proto/client_text.h"
 #include "proto/suggest.h"
@@ -329,7 +331,8 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
   return {};
 }
 
-Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query) {
+Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query,
+                           const Budget& budget) {
   const Options& options = request.options;
   if (options.level > limits.max_level)
     return Error{.code = ErrorCode::too_large,
@@ -339,14 +342,16 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
                  .predicted = options.level,
                  .allowed = limits.max_level};
   if (!options.verify) return {};
-  for (const ControlMesh& mesh : request.meshes) {
-    const auto scheme = scheme_of(mesh, options.schemes);
-    const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
-    if (!reason.empty())
-      return Error{ErrorCode::unsupported, "verify compares with OpenSubdiv, which " + std::string(reason),
-                   blame("verify", query)};
-  }
-  return {};
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (const ControlMesh& mesh : request.meshes) {
+      const auto scheme = scheme_of(mesh, options.schemes, pace);
+      const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
+      if (!reason.empty())
+        return Error{ErrorCode::unsupported, "verify compares with OpenSubdiv, which " + std::string(reason),
+                     blame("verify", query)};
+    }
+    return {};
+  });
 }
 
 std::string effective_options(const RefineRequest& request) {

@@ -64,7 +64,8 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
 // What single values cannot tell: the level against the server's limit, options that exclude each other with
 // the schemes of the meshes.
 // `query` tells whether the body or the query is to blame.
-Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query);
+Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query,
+                           const Budget& budget);
 
 // The options in effect for `request`, as a JSON object. What is not set and left to the meshes is left out;
 // the text is a valid `options` member of a request.

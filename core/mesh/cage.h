@@ -53,6 +53,7 @@ struct Cage {
   Count face_count() const {
     return face_vertex_counts.empty() ? face_vertex_indices.size() / 3 : face_vertex_counts.size();
   }
+  Index face_size(Count face) const { return face_vertex_counts.empty() ? 3 : face_vertex_counts[face]; }
 
   std::string_view subdivision_scheme;
   Index point_count;

@@ -56,6 +56,7 @@ struct ControlMesh {
   Count face_count() const {
     return face_vertex_counts.empty() ? face_vertex_indices.size() / 3 : face_vertex_counts.size();
   }
+  Index face_size(Count face) const { return face_vertex_counts.empty() ? 3 : face_vertex_counts[face]; }
 
   // Finds the first fault and says where it is (`where` uses the JSON field names, e.g.
   // {"faceVertexIndices", 17}); empty when the mesh may be given to any function of this library.

@@ -18,10 +18,9 @@ void remark_sharpness(const ControlMesh& mesh, MeshReport& report, const Pace& p
         "round by their order, so the tolerance of values is at least 1e-7");
 }
 
-Result<void> check_scheme(const ControlMesh& mesh, const RefineOptions& options) {
-  const auto scheme = scheme_of(mesh, options.schemes);
-  const std::string_view reason = scheme ? beyond_opensubdiv(*scheme) : std::string_view();
-  if (reason.empty()) return {};  // what has no name here is refused by the plan
+Result<void> check_scheme(const AnyScheme& scheme) {
+  const std::string_view reason = beyond_opensubdiv(scheme);
+  if (reason.empty()) return {};
   return Error{ErrorCode::unsupported, "OpenSubdiv " + std::string(reason)};
 }
 
@@ -62,14 +61,13 @@ std::string oracle_name() {
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const Plan& plan, const RefineOptions& options,
                           const Budget& budget) {
-  if (auto known = check_scheme(mesh, options); !known) return std::move(known).error();
+  if (auto known = check_scheme(plan.scheme()); !known) return std::move(known).error();
   return stoppable(budget,
                    [&](const Pace& pace) { return compare_levels<Real>(mesh, plan, options, budget, pace); });
 }
 
 template <class Real>
 Result<MeshReport> verify(const ControlMesh& mesh, const RefineOptions& options, const Budget& budget) {
-  if (auto known = check_scheme(mesh, options); !known) return std::move(known).error();
   if (auto fits = check_far_size(mesh, options.level, budget); !fits) return std::move(fits).error();
   const auto plan = Plan::build(mesh, plan_options(options), budget);
   if (!plan) return plan.error();

@@ -1,5 +1,5 @@
 #pragma once
-// The first step of a mesh whose faces are not all quads, where it makes quads of them: values by sparse rows, and what
+// The first step of a mesh whose faces are not all quads, where it makes quads of them: values by rows, and what
 // the quads' own net is built from.
 
 #include <memory>
@@ -9,7 +9,7 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/engine/plain/level.h"
-#include "core/engine/plain/sparse_rows.h"
+#include "core/engine/plain/step_rows.h"
 #include "core/mesh/channel.h"
 #include "core/mesh/sharpness.h"
 #include "core/mesh/topology.h"
@@ -25,7 +25,7 @@ struct FirstStep {
   std::shared_ptr<const Topology<Polygons>> polygons;
   std::shared_ptr<const Topology<Quads>> quads;
   Sharpness sharpness;        // of the quads
-  plain::SparseRows rows;     // of the quads' vertices; empty where all is linear
+  plain::StepRows rows;       // of the quads' vertices; empty where all is linear
   std::vector<Index> values;  // of a channel: see Channel
   bool linear = false;
 };

@@ -93,10 +93,7 @@ Faces faces_of(const Cage& cage, Index begin, Index end, std::span<const Index> 
     std::vector<Index> begins;
     begins.reserve(Count{end} - begin + 1);
     begins.push_back(0);
-    const auto& counts = cage.face_vertex_counts;
-    pace.for_each(end - begin, [&](Index f) {
-      begins.push_back(begins.back() + (counts.empty() ? 3 : counts[begin + f]));
-    });
+    pace.for_each(end - begin, [&](Index f) { begins.push_back(begins.back() + cage.face_size(begin + f)); });
     return Polygons(std::move(begins), std::move(indices), pace);
   } else {
     return Faces(std::move(indices));
@@ -150,8 +147,8 @@ bool has_first_step(const AnyScheme& scheme, FaceSizes sizes) {
 // quads, and while it is made much else.
 constexpr Count kBytesPerCorner = 112, kBytesPerCornerOfFirstStep = 440, kBytesPerPoint = 64;
 
-Count plan_bytes(const Cage& cage, const PlanOptions& options) {
-  const FaceSizes sizes = sizes_of(cage, {});
+Count plan_bytes(const Cage& cage, const PlanOptions& options, const Pace& pace) {
+  const FaceSizes sizes = sizes_of(cage, pace);
   const auto scheme = scheme_of_mesh(cage.subdivision_scheme, sizes, options.schemes);
   const Count nets = 1 + cage.channels.size(), corners = cage.face_vertex_indices.size();
   const Count per_corner =

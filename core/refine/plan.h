@@ -30,10 +30,10 @@ Result<void> check_level(Index level);
 
 // The scheme that a mesh of these faces is refined by, with its options. Fails for a name that is not in the list
 // (bad_enum), and for faces that the scheme does not take (unsupported), both at {"subdivisionScheme"}.
-Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const Pace& pace = {});
+Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const Pace& pace);
 
 // What building a plan takes at most, and holding it: known before anything but the cage's sizes is.
-Count plan_bytes(const Cage& cage, const PlanOptions& options);
+Count plan_bytes(const Cage& cage, const PlanOptions& options, const Pace& pace);
 
 class Plan {
  public:

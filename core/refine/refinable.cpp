@@ -94,24 +94,29 @@ class OfPolygons final : public Refinable {
     constexpr Count kOfCorner = 20, kOfEdge = 34, kOfVertex = 24, kOfWeight = 12;
     return resident_bytes_of(*net_) + kOfCorner * polygons.corner_vertices().size() +
            kOfEdge * polygons.edge_count() + kOfVertex * polygons.vertex_count() +
-           kOfWeight * step_.rows.columns.size() + sizeof(Count) * step_.rows.offsets.size();
+           kOfWeight * weight_count() +
+           sizeof(Count) * (step_.rows.rows.offsets.size() + step_.rows.sums.offsets.size());
   }
   // The plain engine's adjacency, and its rows while they grow.
   Count building_bytes() const override {
     const Connectivity<Polygons>& polygons = *step_.polygons;
     return net_->building_bytes() + kSemiSharpBytes * net_->semi_sharp(0).edges.size() +
-           64 * polygons.corner_vertices().size() + 24 * step_.rows.columns.size();
+           64 * polygons.corner_vertices().size() + 24 * weight_count();
   }
   Count evaluation_bytes(Index level, Index width, Count scalar_bytes, bool limits,
                          const Pace& pace) const override {
     Count bytes =
         evaluation_bytes_of(*net_, std::max<Index>(level, 1) - 1, width, scalar_bytes, limits, pace) +
         step_.polygons->vertex_count() * width * scalar_bytes;
+    const Count sums = step_.rows.sums.row_count();  // made, then held behind the control values
+    if (sums != 0) bytes += (step_.polygons->vertex_count() + 2 * sums) * width * scalar_bytes;
     if (level == 0 && limits) bytes += 4 * net_->value_count(0) * width * scalar_bytes;
     return bytes;
   }
 
  private:
+  Count weight_count() const { return step_.rows.rows.columns.size() + step_.rows.sums.columns.size(); }
+
   template <class Real>
   Result<void> evaluate_all(Index level, Buffer<Real>&& control, Index width, Smoothing smoothing,
                             const Evaluated<Real>& out, Index threads, const Budget& budget) const {

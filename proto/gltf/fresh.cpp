@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/pace.h"
 #include "core/refine/plan.h"
 #include "core/schemes/all.h"
 #include "proto/gltf/caps.h"
@@ -217,7 +218,9 @@ namespace {
 
 // Faces that refine to others than triangles are cut for the answer, as those of render meshes are.
 Result<void> add_whole(ControlMesh& mesh, const AllSchemes& schemes, Work& work) {
-  const auto scheme = scheme_of(mesh, schemes);
+  const auto scheme =
+      stoppable(work.budget(), [&](const Pace& pace) { return scheme_of(mesh, schemes, pace); });
+  if (!scheme && is_stop(scheme.error())) return scheme.error();
   if (!scheme || splits_into_triangles(*scheme)) return {};  // what cannot be refined is refused by the plan
   const Count corners = mesh.face_vertex_indices.size();
   if (auto stop = work.spend(corners / 4)) return *std::move(stop);

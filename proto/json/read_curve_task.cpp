@@ -340,7 +340,7 @@ Result<CurveRequest> decode_curves(std::string_view body, CurveTaskKind kind, co
   if (auto done = json::read_task(body, limits, budget, request); !done) return std::move(done).error();
   if (auto set = set_parameters(request.curves.options, query, json::options_of(kind)); !set)
     return set.error();
-  if (auto fine = check_options(request.curves, limits, query); !fine) return fine.error();
+  if (auto fine = check_options(request.curves, limits, query, budget); !fine) return fine.error();
   if (auto fine = prepare(request.curves, budget); !fine) return fine.error();
   if (auto fine = check_surfaces(request); !fine) return fine.error();
   return request;

@@ -107,6 +107,16 @@ export function fan(faces = 65_535) {
   return json(`{"points":[${flatPoints(faces + 1)}],"faceVertexIndices":[${list(faces, (i) => `0,${i + 1},${((i + 1) % faces) + 1}`)}]}`);
 }
 
+// Two faces of so many corners, back to back.
+export function pillow(corners, seams = false) {
+  const around = Array.from({ length: corners }, (_, i) => i);
+  const primvars = !seams ? {} : { st: {
+    interpolation: 'faceVarying', elementSize: 2, values: Array.from({ length: 4 * corners }, (_, i) => i % 7) } };
+  return json(JSON.stringify({
+    points: around.flatMap((i) => [Math.cos(i), Math.sin(i), i % 3]), faceVertexCounts: [corners, corners],
+    faceVertexIndices: [...around, ...around.toReversed()], primvars }));
+}
+
 export function manyPrimvars(count = 20_000) {
   return json(`{"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2],"primvars":{` +
     `${list(count, (i) => `"p${i}":{"interpolation":"vertex","values":[1,2,3]}`)}}}`);

@@ -52,6 +52,19 @@ for (const [what, options] of [['', {}], [', all corners apart', { torn: true }]
 test('a quarter of a kilobyte that stands for millions of elements stays within the limit', () =>
   staysWithin(256 * MiB, async (port) => [await post(port, '/v1/refine?level=0', bodies.elementsOfNothing(), { patience: 60_000 })]));
 
+// The rows of the first step once held a weight for every two corners of a face.
+for (const seams of [false, true])
+  test(`two faces of many corners that share all edges${seams ? ', with seams,' : ''} stay within the limit`, async () => {
+    const body = bodies.pillow(20_000, seams);
+    await staysWithin(128 * MiB, async (port) => {
+      const answers = [];
+      for (const query of ['level=0', 'level=1', 'level=2&limit=true&normals=true&format=glb'])
+        answers.push(await post(port, `/v1/refine?${query}`, body, { patience: 60_000 }));
+      assert.ok(answers.some(({ status }) => status === 200), 'nothing was refined');
+      return answers;
+    });
+  });
+
 test('levels of convergence stay within the limit', () =>
   staysWithin(256 * MiB, async (port) => [
     await post(port, '/v1/curves/measure', bodies.converge(20), { patience: 60_000 }),

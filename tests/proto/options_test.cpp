@@ -197,6 +197,13 @@ TEST(options, verification_knows_no_weights_but_loops) {
             "unsupported /options/verify");
 }
 
+TEST(options, verification_is_judged_by_the_scheme_that_the_options_choose) {
+  const std::string bilinear =
+      R"({"points":[0,0,0,1,0,0,0,1,0],"faceVertexIndices":[0,1,2],"subdivisionScheme":"bilinear"})";
+  EXPECT_EQ(refusal(bilinear, {{"verify", "1"}}), "unsupported ?verify");
+  EXPECT_EQ(refusal(bilinear, {{"verify", "1"}, {"subdivisionScheme", "loop"}}), "accepted");
+}
+
 TEST(options, the_echo_is_a_valid_options_member_with_the_same_values) {
   const auto request = decode(kTriangle, {{"level", "3"}, {"precision", "single"}, {"weld", "none"}});
   ASSERT_TRUE(request.ok());

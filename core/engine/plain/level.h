@@ -8,7 +8,7 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/engine/plain/adjacency.h"
-#include "core/engine/plain/sparse_rows.h"
+#include "core/engine/plain/step_rows.h"
 #include "core/mesh/control_mesh.h"
 #include "core/mesh/sharpness.h"
 #include "core/schemes/all.h"
@@ -44,7 +44,7 @@ Level next_level(const Level& channel, Split split, const Level& next_mesh, cons
 
 // The values of that step's vertices from those of `level`'s. `linear`: midpoints, and means of faces where they
 // get points, whatever the level's own rules.
-SparseRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
-                   const Pace& pace = {});
+StepRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
+                 const Pace& pace = {});
 
 }  // namespace subdivd::plain

@@ -1,13 +1,14 @@
 #pragma once
-// The masks of a scheme at one level, written as rows: which of the level's values make each of the next one's.
+// The masks of a scheme at one level, written as rows: which of the level's values make each of the next one's. The
+// point of a face is a sum that the rows around it share: of a face of n corners each edge and vertex would else have n
+// weights of its own, n^2 together.
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/engine/plain/level.h"
-#include "core/engine/plain/sparse_rows.h"
 #include "core/engine/plain/split.h"
+#include "core/engine/plain/step_rows.h"
 #include "core/mesh/rings.h"
 #include "core/mesh/sharpness.h"
 #include "core/schemes/mask.h"
@@ -18,39 +19,37 @@ template <class Scheme>
 class MaskRows {
  public:
   MaskRows(const Scheme& scheme, CreaseMethod method, const Level& level, bool linear, const Pace& pace)
-      : scheme_(scheme), method_(method), level_(level), linear_(linear || level.linear), pace_(pace) {
-    if (kHasFacePoints) pace.fill(place_, level.faces.vertex_count(), kNowhere);
-  }
+      : scheme_(scheme),
+        method_(method),
+        level_(level),
+        linear_(linear || level.linear),
+        pace_(pace),
+        maker_(level.faces.vertex_count(), pace) {}
 
-  SparseRows run() {
+  StepRows run() {
+    if (kHasFacePoints) sum_large_faces();
     pace_.for_each(level_.faces.vertex_count(), [&](Index v) { add_vertex_point(v); });
     pace_.for_each(level_.faces.edge_count(), [&](Index e) { add_edge_point(e); });
     if (kHasFacePoints)
       pace_.for_each(level_.faces.face_count(), [&](Index f) {
         add_face_point(f, 1);
-        end_row();
+        maker_.end_row();
       });
-    return std::move(rows_);
+    return maker_.take();
   }
 
  private:
   static constexpr bool kHasFacePoints = Scheme::split == Split::quads;
-  static constexpr Count kNowhere = ~Count{0};
+  static constexpr Index kFewCorners = 4;  // of a face whose corners rows take one by one
 
-  // A face has many vertices, neighbours in the next one among them: what a row takes of one is added up.
-  void add(Index column, double weight) {
-    if (!kHasFacePoints) return rows_.add(column, weight);
-    if (place_[column] == kNowhere) {
-      place_[column] = rows_.columns.size();
-      rows_.add(column, weight);
-    } else {
-      rows_.weights[place_[column]] += weight;
-    }
-  }
-  void end_row() {
-    if (kHasFacePoints)
-      for (Count k = rows_.offsets.back(); k < rows_.columns.size(); ++k) place_[rows_.columns[k]] = kNowhere;
-    rows_.end_row();
+  void sum_large_faces() {
+    pace_.fill(sums_, level_.faces.face_count(), kNoIndex);
+    pace_.for_each(level_.faces.face_count(), [&](Index f) {
+      const Index begin = level_.faces.face_begin(f), size = level_.faces.face_size(f);
+      if (size <= kFewCorners) return;
+      for (Index k = 0; k < size; ++k) maker_.add_to_sum(level_.faces.corner_vertex(begin + k), 1.0 / size);
+      sums_[f] = maker_.end_sum();
+    });
   }
 
   VertexMask vertex_mask(Index v) {
@@ -71,13 +70,13 @@ class MaskRows {
     pace_.spend(edges.size());
     const VertexMask mask = vertex_mask(v);
     if (mask.each != 0)
-      for (const Index e : edges) add(level_.faces.other_end(e, v), mask.each);
+      for (const Index e : edges) maker_.add(level_.faces.other_end(e, v), mask.each);
     if (mask.crease != 0)
-      for (const Index end : mask.crease_ends) add(level_.faces.other_end(edges[end], v), mask.crease);
-    add(v, mask.self);
+      for (const Index end : mask.crease_ends) maker_.add(level_.faces.other_end(edges[end], v), mask.crease);
+    maker_.add(v, mask.self);
     if (mask.face != 0)
       for (const Index h : level_.faces.vertex_corners(v)) add_face_point(level_.faces.face_of(h), mask.face);
-    end_row();
+    maker_.end_row();
   }
 
   EdgeMask edge_mask(Index e, std::span<const Index> along) const {
@@ -95,18 +94,18 @@ class MaskRows {
     pace_.spend(along.size());
     const EdgeMask mask = edge_mask(e, along);
     if (mask.opposite != 0)
-      for (const Index h : along) add(level_.faces.corner_vertex(level_.faces.prev(h)), mask.opposite);
-    for (const Index v : level_.faces.edge_vertices(e)) add(v, mask.end);
+      for (const Index h : along) maker_.add(level_.faces.corner_vertex(level_.faces.prev(h)), mask.opposite);
+    for (const Index v : level_.faces.edge_vertices(e)) maker_.add(v, mask.end);
     if (mask.face != 0)
       for (const Index h : along) add_face_point(level_.faces.face_of(h), mask.face);
-    end_row();
+    maker_.end_row();
   }
 
   // The mean of its vertices.
   void add_face_point(Index f, double weight) {
+    if (sums_[f] != kNoIndex) return maker_.add_sum(sums_[f], weight);
     const Index begin = level_.faces.face_begin(f), size = level_.faces.face_size(f);
-    pace_.spend(size);
-    for (Index k = 0; k < size; ++k) add(level_.faces.corner_vertex(begin + k), weight / size);
+    for (Index k = 0; k < size; ++k) maker_.add(level_.faces.corner_vertex(begin + k), weight / size);
   }
 
   const Scheme& scheme_;
@@ -114,15 +113,15 @@ class MaskRows {
   const Level& level_;
   bool linear_;
   const Pace& pace_;
-  SparseRows rows_;
-  std::vector<Count> place_;  // of a column in the row that is written
+  RowMaker maker_;
+  std::vector<Index> sums_;  // of faces, kNoIndex where there is none
   std::vector<float> sharpness_, child_sharpness_;
 };
 
 // As rows_of() of level.h, for a scheme that need not be on the list: HasSplit and HasMasks of scheme.h will do.
 template <class Scheme>
-SparseRows rows_of(const Scheme& scheme, CreaseMethod method, const Level& level, bool linear,
-                   const Pace& pace = {}) {
+StepRows rows_of(const Scheme& scheme, CreaseMethod method, const Level& level, bool linear,
+                 const Pace& pace = {}) {
   return MaskRows(scheme, method, level, linear, pace).run();
 }
 

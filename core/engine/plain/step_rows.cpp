@@ -3,15 +3,26 @@
 namespace subdivd::plain {
 
 template <class Real>
-std::vector<Real> apply(const StepRows& step, std::span<const Real> values, Index width, const Pace& pace) {
-  if (step.sums.row_count() == 0) return apply<Real>(step.rows, values, width, pace);
+void apply(const StepRows& step, std::span<const Real> values, Index width, Real* out, const Pace& pace) {
+  if (step.sums.row_count() == 0) return apply<Real>(step.rows, values, width, out, pace);
   std::vector<Real> all;
+  all.reserve((step.old_count + step.sums.row_count()) * width);
   const auto old = values.first(Count{step.old_count} * width);
   pace.append(old, all);
   pace.append(apply<Real>(step.sums, values, width, pace), all);
-  return apply<Real>(step.rows, std::span<const Real>(all), width, pace);
+  apply<Real>(step.rows, std::span<const Real>(all), width, out, pace);
 }
 
+template <class Real>
+std::vector<Real> apply(const StepRows& step, std::span<const Real> values, Index width, const Pace& pace) {
+  std::vector<Real> result;
+  pace.fill(result, step.rows.row_count() * width, Real(0));
+  apply<Real>(step, values, width, result.data(), pace);
+  return result;
+}
+
+template void apply(const StepRows&, std::span<const float>, Index, float*, const Pace&);
+template void apply(const StepRows&, std::span<const double>, Index, double*, const Pace&);
 template std::vector<float> apply(const StepRows&, std::span<const float>, Index, const Pace&);
 template std::vector<double> apply(const StepRows&, std::span<const double>, Index, const Pace&);
 

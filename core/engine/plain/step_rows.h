@@ -21,6 +21,9 @@ struct StepRows {
 template <class Real>
 std::vector<Real> apply(const StepRows& step, std::span<const Real> values, Index width,
                         const Pace& pace = {});
+// Into `out`, which has room for them.
+template <class Real>
+void apply(const StepRows& step, std::span<const Real> values, Index width, Real* out, const Pace& pace);
 
 // Faces and rings of more than these are summed first.
 inline constexpr Index kShortRow = 16;

@@ -8,21 +8,12 @@
 #include "core/base/budget.h"
 #include "core/engine/plain/level.h"
 #include "core/engine/plain/split.h"
-#include "core/mesh/topology.h"
+#include "tests/core/engine/levels.h"
 #include "tests/shapes/build.h"
 #include "tests/shapes/shapes.h"
 
 namespace subdivd::plain {
 namespace {
-
-Level base_level(const ControlMesh& mesh, CreaseMethod method = CreaseMethod::uniform) {
-  const Topology<Triangles> topology(static_cast<Index>(mesh.point_count()),
-                                     Triangles(mesh.face_vertex_indices));
-  std::vector<Index> offsets;
-  for (Index k = 0; k <= mesh.face_vertex_indices.size(); k += 3) offsets.push_back(k);
-  return first_level(Adjacency(topology.vertex_count(), Polygons(offsets, mesh.face_vertex_indices)),
-                     control_sharpness(mesh, topology), method);
-}
 
 TEST(PlainRows, sum_to_one_for_every_scheme) {
   for (const auto& [name, mesh] : shapes::all_shapes())
@@ -30,7 +21,7 @@ TEST(PlainRows, sum_to_one_for_every_scheme) {
       SCOPED_TRACE(name);
       Level level = base_level(mesh);
       for (int depth = 0; depth < 2; ++depth, level = next_level(level, S::split, CreaseMethod::uniform)) {
-        const SparseRows rows = rows_of(scheme, CreaseMethod::uniform, level, false);
+        const SparseRows rows = written_out(rows_of(scheme, CreaseMethod::uniform, level, false));
         ASSERT_EQ(rows.row_count(), child_count(S::split, level.faces));
         for (Count r = 0; r < rows.row_count(); ++r) {
           double sum = 0;
@@ -43,7 +34,7 @@ TEST(PlainRows, sum_to_one_for_every_scheme) {
 
 TEST(PlainRows, are_midpoints_when_linear) {
   const Level level = base_level(shapes::icosahedron());
-  const SparseRows rows = rows_of(AnyScheme(), CreaseMethod::uniform, level, true);
+  const SparseRows rows = written_out(rows_of(AnyScheme(), CreaseMethod::uniform, level, true));
   for (Count r = 0; r < rows.row_count(); ++r)
     for (Count k = rows.offsets[r]; k < rows.offsets[r + 1]; ++k)
       EXPECT_EQ(rows.weights[k], r < level.faces.vertex_count() ? 1 : 0.5);

@@ -57,6 +57,14 @@ ControlMesh hub(Index faces) {
   return mesh;
 }
 
+// Two faces of n corners, back to back: every point and edge has them both.
+ControlMesh pillow(Index n) {
+  ControlMesh mesh = apart(1, n);
+  mesh.face_vertex_counts.push_back(n);
+  for (Index k = n; k > 0; --k) mesh.face_vertex_indices.push_back(k - 1);
+  return mesh;
+}
+
 // Every corner a value of its own, twice.
 ControlMesh with_channels(ControlMesh mesh) {
   for (const char* name : {"a", "b"}) {
@@ -89,6 +97,11 @@ ControlMesh with_render_mesh(ControlMesh mesh) {
 std::vector<shapes::NamedShape> meshes_of(Index size) {
   ControlMesh mixed = apart(250 * size, 4);  // as many corners as quads have
   for (Index f = 0; f < 250 * size; ++f) mixed.face_vertex_counts[f] = f % 2 == 0 ? 3 : 5;
+  ControlMesh pairs_of_eight = apart(63 * size, 8);
+  for (Index f = 0; f < 63 * size; ++f) {
+    pairs_of_eight.face_vertex_counts.push_back(8);
+    for (Index k = 8; k > 0; --k) pairs_of_eight.face_vertex_indices.push_back(8 * f + k - 1);
+  }
   const auto side = static_cast<Index>(std::sqrt(250.0 * size));
   return {{"quads", sheet(side, 4)},
           {"quads and a triangle", sheet(side, 3)},
@@ -97,6 +110,9 @@ std::vector<shapes::NamedShape> meshes_of(Index size) {
           {"triangles apart", apart(333 * size, 3)},
           {"a hub", hub(333 * size)},
           {"one face", apart(1, 1000 * size)},
+          {"two faces that share all edges", pillow(500 * size)},
+          {"two faces with seams", with_channels(pillow(500 * size))},
+          {"faces of eight, pairs of them", pairs_of_eight},
           {"seams", with_channels(sheet(side, 3))},
           {"seams of quads", with_channels(sheet(side, 4))},
           {"rendered quads", with_render_mesh(sheet(side, 4))},
@@ -109,7 +125,7 @@ TEST(Memory, of_a_plan_is_known_before) {
     for (const char* scheme : {"catmullClark", "bilinear"}) {
       ControlMesh of_scheme = mesh;
       of_scheme.subdivision_scheme = scheme;
-      const auto predicted = static_cast<std::int64_t>(plan_bytes(of_scheme, {}));
+      const auto predicted = static_cast<std::int64_t>(plan_bytes(of_scheme, {}, {}));
       const test::Allocations count;
       const auto plan = Plan::build(of_scheme, {.max_level = 3}, {});
       ASSERT_TRUE(plan.ok()) << name;
