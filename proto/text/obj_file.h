@@ -52,6 +52,7 @@ struct ObjFile {
   std::optional<BoundaryInterpolation> boundary;
   std::optional<FaceVaryingInterpolation> face_varying;
   std::optional<CreaseMethod> crease_method;
+  std::optional<TriangleRule> triangle_rule;
   bool has_groups = false, has_others = false, has_other_tags = false;
 };
 

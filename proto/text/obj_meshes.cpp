@@ -127,6 +127,7 @@ class MeshMaker {
     if (!triangles) mesh.face_vertex_counts = std::move(counts);
     if (file_.boundary) mesh.interpolate_boundary = *file_.boundary;
     if (file_.face_varying) mesh.face_varying_linear_interpolation = *file_.face_varying;
+    if (file_.triangle_rule) mesh.triangle_subdivision_rule = *file_.triangle_rule;
     return mesh;
   }
 
@@ -233,8 +234,7 @@ class MeshMaker {
     if (file_.has_others)
       warnings_.emplace_back(
           "points, free-form curves and surfaces and what tells how to render are left out.");
-    if (file_.has_other_tags)
-      warnings_.emplace_back("tags that have no meaning for Loop's scheme are left out.");
+    if (file_.has_other_tags) warnings_.emplace_back("tags of hierarchical edits are left out.");
     if (!file_.colors.empty() && !colored_)
       warnings_.emplace_back("colours of points are left out: not all points have one.");
     if (half_textured_)

@@ -12,11 +12,12 @@
 namespace subdivd::proto::text {
 namespace {
 
-constexpr std::array<std::string_view, 6> kTags = {
-    "crease", "corner", "hole", "interpolateboundary", "facevaryinginterpolateboundary", "creasemethod"};
-// Of Catmull-Clark, or of RenderMan, and without a meaning here.
-constexpr std::array<std::string_view, 5> kOtherTags = {"smoothtriangles", "facevaryingpropagatecorners",
-                                                        "vertexedit", "edgeedit", "faceedit"};
+constexpr std::array<std::string_view, 7> kTags = {
+    "crease",       "corner",         "hole", "interpolateboundary", "facevaryinginterpolateboundary",
+    "creasemethod", "smoothtriangles"};
+// Of RenderMan's hierarchical edits, and one that OpenSubdiv dropped: without a meaning here.
+constexpr std::array<std::string_view, 4> kOtherTags = {"facevaryingpropagatecorners", "vertexedit",
+                                                        "edgeedit", "faceedit"};
 
 class TagReader {
  public:
@@ -60,16 +61,18 @@ class TagReader {
     return cursor_.fail(ErrorCode::wrong_length,
                         "the tag " + std::string(name_) +
                             " does not take these arguments; right would be crease 2/1/0, corner 1/1/0, hole "
-                            "1/0/0, interpolateboundary 1/0/0, facevaryinginterpolateboundary 1/0/0 or "
-                            "creasemethod 0/0/1");
+                            "1/0/0, interpolateboundary 1/0/0, facevaryinginterpolateboundary 1/0/0, "
+                            "creasemethod 0/0/1 or smoothtriangles 0/0/1");
   }
 
   bool apply() {
     if (name_ == "crease") return sharp_ok(2) && add_creases();
     if (name_ == "corner") return sharp_ok(1) && add_corners();
     if (name_ == "hole") return numbers_.empty() && word_.empty() ? add_holes() : wrong_arguments();
-    if (name_ == "creasemethod")
-      return wholes_.empty() && numbers_.empty() ? set_method() : wrong_arguments();
+    if (name_ == "creasemethod" || name_ == "smoothtriangles") {
+      if (!wholes_.empty() || !numbers_.empty()) return wrong_arguments();
+      return name_ == "creasemethod" ? set_method() : set_triangle_rule();
+    }
     if (wholes_.size() != 1 || !word_.empty()) return wrong_arguments();
     return name_ == "interpolateboundary" ? set_boundary() : set_face_varying();
   }
@@ -128,6 +131,14 @@ class TagReader {
     if (word_ != "normal" && word_ != "chaikin")
       return cursor_.fail(ErrorCode::bad_enum, in_quotes(word_) + " is no creasemethod: normal or chaikin");
     file_.crease_method = word_ == "chaikin" ? CreaseMethod::chaikin : CreaseMethod::uniform;
+    return true;
+  }
+
+  bool set_triangle_rule() {
+    if (word_ != "catmark" && word_ != "smooth")
+      return cursor_.fail(ErrorCode::bad_enum,
+                          in_quotes(word_) + " is no rule of smoothtriangles: catmark or smooth");
+    file_.triangle_rule = word_ == "smooth" ? TriangleRule::smooth : TriangleRule::catmull_clark;
     return true;
   }
 

@@ -158,6 +158,18 @@ TEST(obj, tags_are_read) {
   EXPECT_EQ(request.options.crease_method, CreaseMethod::chaikin);
 }
 
+TEST(obj, tags_choose_the_rule_of_triangles) {
+  const std::string face = kFourPoints + "f 1 2 3\n";
+  EXPECT_EQ(read(face).meshes.at(0).triangle_subdivision_rule, TriangleRule::catmull_clark);
+  EXPECT_EQ(read(face + "t smoothtriangles 0/0/1 smooth\n").meshes.at(0).triangle_subdivision_rule,
+            TriangleRule::smooth);
+  EXPECT_EQ(read(face + "t smoothtriangles 0/0/1 catmark\n").meshes.at(0).triangle_subdivision_rule,
+            TriangleRule::catmull_clark);
+  EXPECT_THAT(refusal_of(face + "t smoothtriangles 0/0/1 round\n"),
+              HasSubstr("bad_enum line 6: \"round\" is no rule of smoothtriangles: catmark or smooth"));
+  EXPECT_THAT(refusal_of(face + "t smoothtriangles 1/0/0 1\n"), HasSubstr("wrong_length line 6"));
+}
+
 TEST(obj, the_query_wins_over_tags) {
   const RefineRequest request =
       read(kFourPoints + "f 1 2 3\nt interpolateboundary 1/0/0 2\nt creasemethod 0/0/1 chaikin\n",
@@ -182,8 +194,8 @@ TEST(obj, what_is_not_kept_is_named) {
   EXPECT_THAT(read("mtllib a.mtl\n" + kFourPoints + "g a b\nusemtl m\ns 1\nf 1 2 3\n").warnings,
               ElementsAre(HasSubstr("groups and materials")));
   EXPECT_THAT(read(kFourPoints + "f 1 2 3\np 1\n").warnings, ElementsAre(HasSubstr("are left out")));
-  EXPECT_THAT(read(kFourPoints + "f 1 2 3\nt smoothtriangles 0/0/1 smooth\n").warnings,
-              ElementsAre(HasSubstr("tags that have no meaning")));
+  EXPECT_THAT(read(kFourPoints + "f 1 2 3\nt vertexedit 0/0/1 set\n").warnings,
+              ElementsAre(HasSubstr("tags of hierarchical edits are left out")));
 }
 
 TEST(obj, faults_name_their_line) {
