@@ -103,14 +103,16 @@ Count rearranging_bytes(const ControlMesh& mesh, Count faces) {
 }
 
 // Bytes of what check() makes of creases, to look for their edges (see are_edges()), of corners
-// and holes, to find those that are given twice, and of points, to find faces that repeat one.
+// and holes, to find those that are given twice, and of points and render vertices, to find faces that repeat one.
 Count checking_bytes(const ControlMesh& mesh) {
   const Count points = mesh.point_count(), corners = mesh.face_vertex_indices.size();
   constexpr Count kPair = sizeof(VertexPair) + sizeof(Index) + 2;
   Count bytes = 0;
   if (!mesh.crease_lengths.empty())
     bytes = mesh.crease_indices.size() * kPair + (3 * (points + 1) + corners) * sizeof(Index);
-  if (!mesh.face_vertex_counts.empty()) bytes = std::max(bytes, points * sizeof(Index));
+  bytes = std::max(bytes, points * sizeof(Index));
+  for (const RenderMesh& render : mesh.render_meshes)
+    bytes = std::max(bytes, render.vertex_count * sizeof(Index));
   if (!mesh.corner_indices.empty()) bytes = std::max(bytes, points);
   if (!mesh.hole_indices.empty()) bytes = std::max(bytes, mesh.face_count());
   return bytes;

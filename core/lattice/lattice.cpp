@@ -42,7 +42,6 @@ void place_triangles(const Connectivity<Triangles>& connectivity, Index level, s
     }
 }
 
-// Calls f(quad, place of its point (i, j)) with the place on the base face.
 void place_quads(const Connectivity<Quads>& connectivity, Index level, std::span<Provenance> out,
                  const Pace& pace) {
   const Numbering numbering(connectivity, level);
@@ -55,8 +54,8 @@ void place_quads(const Connectivity<Quads>& connectivity, Index level, std::span
     }
 }
 
-// The place on a quad, whose corners follow one another counter-clockwise, of point (i, j) on the grid of its k-th
-// quarter: n segments an edge of the whole.
+// The place on a quad, whose corners follow one another counter-clockwise, of point (i, j) on the grid of its
+// k-th quarter: n segments an edge of the whole.
 GridPoint on_whole_quad(Index k, Index i, Index j, Index n) {
   switch (k) {
     case 0:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/pace.h"
 #include "core/base/parallel.h"
 #include "core/lattice/quad_faces.h"
 #include "core/lattice/triangles.h"
@@ -32,22 +31,19 @@ Count triangles_of(Index corners) { return corners - 2; }
 }  // namespace
 
 TriangleStream::TriangleStream(std::shared_ptr<const Lattice> lattice, Index level,
-                               std::span<const unsigned char> holes)
+                               std::span<const unsigned char> holes, const Pace& pace)
     : lattice_(std::move(lattice)), level_(level) {
-  const bool polygons = lattice_->face_size(level) == 0;
-  if (polygons)
-    holes_.assign(holes.begin(), holes.end());
-  else
-    holes_ = holes_of_grids(*lattice_, holes, kUnlimited);
-  if (polygons) {
-    for (Index f = 0; f < holes_.size(); ++f) {
-      const Count indices = 3 * triangles_of(lattice_->base_face_size(f));
-      least_room_ = std::max(least_room_, indices);
-      if (holes_[f] == 0) index_count_ += indices;
-    }
+  if (lattice_->face_size(level) == 0) {
+    pace.copy(holes, holes_);
+    pace.for_each(static_cast<Index>(holes_.size()), [&](Index f) {
+      if (holes_[f] == 0) index_count_ += 3 * triangles_of(lattice_->base_face_size(f));
+    });
+    least_room_ = 3;
     return;
   }
-  const auto faces = static_cast<Count>(std::ranges::count(holes_, 0));
+  holes_ = holes_of_grids(*lattice_, holes, pace);
+  Count faces = 0;
+  pace.for_each(holes_.size(), [&](Count f) { faces += holes_[f] == 0; });
   const Index depth = level - lattice_->first_level();
   if (lattice_->has_triangles()) {
     const TriangleWriter writer(lattice_->triangles(), depth, kUnlimited);
@@ -106,12 +102,13 @@ Count TriangleStream::next_of_polygons(std::span<Index> out) {
   const auto corners = lattice_->base_corners();
   const Connectivity<Polygons>& polygons = *lattice_->shared_polygons();
   Count written = 0;
-  for (; face_ < holes_.size(); ++face_) {
+  for (; face_ < holes_.size(); ++face_, row_ = 0) {
     if (holes_[face_] != 0) continue;
-    const Index begin = polygons.faces().begin(face_), size = lattice_->base_face_size(face_);
-    if (out.size() - written < 3 * triangles_of(size)) break;
-    for (Index k = 1; k + 1 < size; ++k)
-      for (const Index corner : {Index{0}, k, k + 1}) out[written++] = corners[begin + corner];
+    const Index begin = polygons.faces().begin(face_);
+    for (; row_ < triangles_of(lattice_->base_face_size(face_)); ++row_) {
+      if (out.size() - written < 3) return written;
+      for (const Count corner : {Count{0}, row_ + 1, row_ + 2}) out[written++] = corners[begin + corner];
+    }
   }
   return written;
 }
@@ -135,9 +132,16 @@ Result<Buffer<Index>> TriangleStream::all(Index threads, const Budget& budget) c
     return indices;
   }
   if (lattice_->face_size(level_) == 0) {
-    TriangleStream whole(lattice_, level_, holes_);
-    whole.next(indices);
-    return indices;
+    constexpr Count kPiece = 3 * 4096;
+    return stoppable(budget, [&](const Pace& pace) -> Result<Buffer<Index>> {
+      TriangleStream whole(lattice_, level_, holes_, pace);
+      for (Count written = 0; written < indices.size();) {
+        pace.spend(kPiece / 4);
+        written +=
+            whole.next(std::span(indices).subspan(written, std::min(kPiece, indices.size() - written)));
+      }
+      return std::move(indices);
+    });
   }
   const auto written = Team::run(1, budget, [&](Worker& worker) {
     const Pace pace(worker);

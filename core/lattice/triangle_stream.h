@@ -8,6 +8,7 @@
 #include "core/base/budget.h"
 #include "core/base/buffer.h"
 #include "core/base/index.h"
+#include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/lattice/lattice.h"
 
@@ -20,7 +21,8 @@ class TriangleStream {
  public:
   TriangleStream() = default;  // of no faces
   // `holes`: one flag per face of the lattice, those with 0 are written.
-  TriangleStream(std::shared_ptr<const Lattice> lattice, Index level, std::span<const unsigned char> holes);
+  TriangleStream(std::shared_ptr<const Lattice> lattice, Index level, std::span<const unsigned char> holes,
+                 const Pace& pace = {});
 
   Count index_count() const { return index_count_; }  // of all triangles
   Count least_room() const;                           // that next() needs, in indices
@@ -42,7 +44,7 @@ class TriangleStream {
       holes_;  // of the faces that the grids start from; of polygons where they are the faces
   Count index_count_ = 0, least_room_ = 0;
   Index face_ = 0;
-  Count row_ = 0;  // of the face, where rows are written one by one
+  Count row_ = 0;  // of the face, where rows are written one by one; of a polygon, the triangle
 };
 
 }  // namespace subdivd

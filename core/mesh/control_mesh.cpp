@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -119,29 +120,26 @@ Result<void> check_face_counts(const ControlMesh& mesh, const Pace& pace) {
   return {};
 }
 
-// Finds the first corner whose vertex its face has had before; all corners are < point_count.
-Result<void> check_repeats(const ControlMesh& mesh, const Pace& pace) {
-  std::vector<Index> last_face;  // of each point
-  pace.fill(last_face, mesh.point_count(), kNoIndex);
+struct Repeat {
+  Index face;
+  Count corner;
+};
+
+// The first corner whose vertex its face has had before. `corners`: of the mesh's faces from `begin` on, over any
+// vertices, each < vertex_count.
+std::optional<Repeat> first_repeat(const ControlMesh& mesh, Index begin, std::span<const Index> corners,
+                                   Count vertex_count, const Pace& pace) {
+  std::vector<Index> last_face;  // of each vertex
+  pace.fill(last_face, vertex_count, kNoIndex);
   Count corner = 0;
-  for (Count f = 0; f < mesh.face_count(); ++f) {
-    const Count end = corner + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]);
+  for (Index f = begin; corner < corners.size(); ++f) {
+    const Count end = corner + mesh.face_size(f);
     for (; corner < end; ++corner) {
       pace.spend(1);
-      Index& last = last_face[mesh.face_vertex_indices[corner]];
-      if (last == f)
-        return fault(ErrorCode::not_a_triangle, "face " + number(f) + " repeats a vertex",
-                     at("faceVertexIndices", corner));
-      last = static_cast<Index>(f);
+      if (std::exchange(last_face[corners[corner]], f) == f) return Repeat{f, corner};
     }
   }
-  return {};
-}
-
-bool has_triangles_only(const ControlMesh& mesh, const Pace& pace) {
-  return all_blocks(std::span<const Index>(mesh.face_vertex_counts), pace, [](std::span<const Index> counts) {
-    return std::ranges::all_of(counts, [](Index count) { return count == 3; });
-  });
+  return std::nullopt;
 }
 
 Result<void> check_faces(const ControlMesh& mesh, const Pace& pace) {
@@ -160,14 +158,17 @@ Result<void> check_faces(const ControlMesh& mesh, const Pace& pace) {
   } else if (auto fine = check_face_counts(mesh, pace); !fine) {
     return fine;
   }
-  if (has_triangles_only(mesh, pace) &&
+  if (has_triangles_only(mesh.face_vertex_counts, pace) &&
       all_triangles_sound(mesh.face_vertex_indices, mesh.point_count(), pace))
     return {};
   if (auto fine =
           check_indices(mesh.face_vertex_indices, mesh.point_count(), "points", {"faceVertexIndices"}, pace);
       !fine)
     return fine;
-  return check_repeats(mesh, pace);
+  if (const auto repeat = first_repeat(mesh, 0, mesh.face_vertex_indices, mesh.point_count(), pace))
+    return fault(ErrorCode::not_a_triangle, "face " + number(repeat->face) + " repeats a vertex",
+                 at("faceVertexIndices", repeat->corner));
+  return {};
 }
 
 // Every two neighbours of a crease must share an edge.
@@ -298,6 +299,7 @@ Result<void> check_primvars(const ControlMesh& mesh, const Pace& pace) {
 }
 
 Result<void> check_render_meshes(const ControlMesh& mesh, const Pace& pace) {
+  const bool triangles = has_triangles_only(mesh.face_vertex_counts, pace);
   Index end = 0;
   for (std::size_t k = 0; k < mesh.render_meshes.size(); ++k) {
     pace.spend(16);
@@ -313,14 +315,12 @@ Result<void> check_render_meshes(const ControlMesh& mesh, const Pace& pace) {
     }
     if (render.indices.size() != corners)
       return fault(ErrorCode::wrong_length, "one index per face corner is needed", at("renderMeshes", k));
-    // A render face cannot repeat a vertex unless its face does.
-    if (mesh.face_vertex_counts.empty() && all_triangles_sound(render.indices, render.vertex_count, pace))
-      continue;
+    if (triangles && all_triangles_sound(render.indices, render.vertex_count, pace)) continue;
     if (auto fine =
             check_indices(render.indices, render.vertex_count, "vertices", at("renderMeshes", k), pace);
         !fine)
       return fine;
-    if (mesh.face_vertex_counts.empty())
+    if (first_repeat(mesh, render.face_begin, render.indices, render.vertex_count, pace))
       return fault(ErrorCode::not_a_triangle, "a render face repeats a vertex", at("renderMeshes", k));
   }
   return {};

@@ -19,9 +19,7 @@ namespace {
 std::vector<Count> corner_offsets(const ControlMesh& mesh, const Pace& pace) {
   std::vector<Count> offsets;
   pace.fill(offsets, mesh.face_count() + 1, 0);
-  pace.for_each(mesh.face_count(), [&](Count f) {
-    offsets[f + 1] = offsets[f] + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]);
-  });
+  pace.for_each(mesh.face_count(), [&](Count f) { offsets[f + 1] = offsets[f] + mesh.face_size(f); });
   return offsets;
 }
 
@@ -184,13 +182,6 @@ bool has_repeats(std::span<const Index> triangles, const Pace& pace) {
   return found;
 }
 
-bool has_triangles_only(const ControlMesh& mesh, const Pace& pace) {
-  bool triangles = true;
-  pace.for_each(mesh.face_vertex_counts.size(),
-                [&](Count f) { triangles &= mesh.face_vertex_counts[f] == 3; });
-  return triangles;
-}
-
 }  // namespace
 
 Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget& budget) {
@@ -199,7 +190,7 @@ Result<std::vector<Index>> drop_degenerate_faces(ControlMesh& mesh, const Budget
     if (offsets.back() != mesh.face_vertex_indices.size()) {
       if (auto fine = mesh.check(budget); !fine) return std::move(fine).error();
     }
-    if (has_triangles_only(mesh, pace) && !has_repeats(mesh.face_vertex_indices, pace))
+    if (has_triangles_only(mesh.face_vertex_counts, pace) && !has_repeats(mesh.face_vertex_indices, pace))
       return std::vector<Index>{};
     const std::vector<unsigned char> dropped = repeating_faces(mesh, offsets, pace);
     std::vector<Index> dropped_counts, dropped_corners, kept, corners, counts;
@@ -244,7 +235,7 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
   if (corners == mesh.face_vertex_indices.size() && can_be_rearranged(mesh, pace)) return {};
   if (auto fine = mesh.check(budget); !fine && fine.error().code != ErrorCode::not_a_triangle)
     return std::move(fine).error();
-  // check() meets the larger faces first: say what stands behind them.
+  // check() meets faces that repeat a vertex first: say what stands behind them.
   return Error{ErrorCode::wrong_length,
                "face-varying primvars, uniform primvars and holeIndices must fit the faces as they are given",
                {"primvars"}};
@@ -254,7 +245,7 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
 
 Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget) {
   return stoppable(budget, [&](const Pace& pace) -> Result<Triangulation> {
-    if (has_triangles_only(mesh, pace)) return Triangulation{};
+    if (has_triangles_only(mesh.face_vertex_counts, pace)) return Triangulation{};
     const std::vector<Count> offsets = corner_offsets(mesh, pace);
     if (auto fine = check_larger_faces(mesh, offsets.back(), budget, pace); !fine)
       return std::move(fine).error();

@@ -24,6 +24,14 @@ inline bool all_below(std::span<const Index> indices, Count limit) {
   return any < kSigned;
 }
 
+// Of faces by their numbers of vertices; where none is given all are triangles.
+inline bool has_triangles_only(std::span<const Index> face_vertex_counts, const Pace& pace) {
+  return pace.all_blocks(face_vertex_counts.size(), [&](Count begin, Count end) {
+    return std::ranges::all_of(face_vertex_counts.subspan(begin, end - begin),
+                               [](Index count) { return count == 3; });
+  });
+}
+
 // Whether one of the triangles (3 indices each) names a vertex twice.
 inline bool any_repeats(std::span<const Index> triangles) {
   // Four triangles, three vectors, at a time: every index against the one behind it and the one after that,

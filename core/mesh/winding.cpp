@@ -13,7 +13,7 @@ Result<void> reverse_windings(ControlMesh& mesh, const Budget& budget) {
     const auto turn = [&](std::vector<Index>& corners, Index first_face = 0) {
       auto begin = corners.begin();
       for (Index f = first_face; begin != corners.end(); ++f) {
-        const Index size = mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f];
+        const Index size = mesh.face_size(f);
         pace.spend(size);
         std::reverse(begin + 1, begin + size);
         begin += size;

@@ -14,7 +14,7 @@ RefinedRenderMesh refine(const RenderMesh& mesh, const std::shared_ptr<const Lat
   const auto holes = plan.holes().subspan(mesh.face_begin, mesh.face_end - mesh.face_begin);
   RefinedRenderMesh refined;
   refined.vertex_count = static_cast<Index>(lattice->vertex_count(level));
-  refined.triangles = TriangleStream(lattice, level, holes);
+  refined.triangles = TriangleStream(lattice, level, holes, pace);
   refined.face_begin = face_begin;
   refined.face_end = static_cast<Index>(face_begin + lattice->face_count(level, holes, pace));
   const auto sources = [&](const Refinable& part) -> Buffer<Index> {

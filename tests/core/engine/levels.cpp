@@ -14,8 +14,7 @@ namespace subdivd::plain {
 Polygons faces_of(const ControlMesh& mesh) {
   std::vector<Index> offsets{0};
   const Count faces = mesh.face_count();
-  for (Count f = 0; f < faces; ++f)
-    offsets.push_back(offsets.back() + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]));
+  for (Count f = 0; f < faces; ++f) offsets.push_back(offsets.back() + mesh.face_size(f));
   return Polygons(std::move(offsets), mesh.face_vertex_indices);
 }
 

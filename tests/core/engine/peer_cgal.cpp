@@ -17,7 +17,7 @@ bool build(const ControlMesh& from, Mesh& mesh) {
   std::size_t corner = 0;
   for (std::size_t f = 0; f < from.face_count(); ++f) {
     std::vector<Mesh::Vertex_index> face;
-    const std::size_t n = from.face_vertex_counts.empty() ? 3 : from.face_vertex_counts[f];
+    const std::size_t n = from.face_size(f);
     for (std::size_t k = 0; k < n; ++k) face.emplace_back(from.face_vertex_indices[corner++]);
     if (mesh.add_face(face) == Mesh::null_face()) return false;
   }

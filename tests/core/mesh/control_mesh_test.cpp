@@ -264,6 +264,26 @@ TEST(ControlMeshCheck, rejects_a_primvar_value_that_is_not_finite) {
   expect_fault(mesh, ErrorCode::not_finite, path({"primvars", "a", "values", index(5)}));
 }
 
+TEST(ControlMeshCheck, rejects_render_faces_that_repeat_a_vertex) {
+  ControlMesh triangle;
+  triangle.points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  triangle.face_vertex_indices = {0, 1, 2};
+  triangle.render_meshes = {{0, 1, 2, {0, 0, 1}}};
+  expect_fault(triangle, ErrorCode::not_a_triangle, path({"renderMeshes", index(0)}));
+  triangle.face_vertex_counts = {3};
+  expect_fault(triangle, ErrorCode::not_a_triangle, path({"renderMeshes", index(0)}));
+
+  ControlMesh mixed = cube();
+  mixed.face_vertex_counts = {3, 4, 5};
+  mixed.face_vertex_indices = {0, 1, 2, 0, 1, 2, 3, 4, 5, 6, 7, 0};
+  mixed.render_meshes = {{0, 1, 3, {0, 1, 2}}, {1, 3, 9, {0, 1, 2, 3, 4, 5, 6, 7, 8}}};
+  EXPECT_TRUE(mixed.check().ok());
+  mixed.render_meshes[1].indices = {0, 1, 2, 3, 1, 2, 3, 4, 0};  // vertices that two faces share
+  EXPECT_TRUE(mixed.check().ok());
+  mixed.render_meshes[1].indices[8] = 2;
+  expect_fault(mixed, ErrorCode::not_a_triangle, path({"renderMeshes", index(1)}));
+}
+
 TEST(ControlMeshCheck, rejects_render_meshes_that_overlap) {
   ControlMesh mesh = cube();
   mesh.render_meshes = {{0, 6, 8, {}}, {5, 12, 8, {}}};

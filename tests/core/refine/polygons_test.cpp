@@ -138,8 +138,7 @@ TEST(CatmullClarkMeshes, take_triangles_when_asked_to) {
 
 Polygons polygons_of(const ControlMesh& mesh, std::vector<Index> corners) {
   std::vector<Index> begins{0};
-  for (Count f = 0; f < mesh.face_count(); ++f)
-    begins.push_back(begins.back() + (mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f]));
+  for (Count f = 0; f < mesh.face_count(); ++f) begins.push_back(begins.back() + mesh.face_size(f));
   return Polygons(std::move(begins), std::move(corners));
 }
 
@@ -157,7 +156,7 @@ ControlMesh with_seams(ControlMesh mesh, Index islands) {
                        {mesh.points[3 * v] + 5 * island, mesh.points[3 * v + 1] + mesh.points[3 * v + 2]});
   std::size_t corner = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Index size = mesh.face_vertex_counts.empty() ? 3 : mesh.face_vertex_counts[f];
+    const Index size = mesh.face_size(f);
     for (Index k = 0; k < size; ++k)
       st.indices.push_back(mesh.face_vertex_indices[corner++] + points * (f % islands));
   }
