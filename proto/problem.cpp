@@ -64,7 +64,7 @@ std::string_view title_of(ErrorCode code) {
     case ErrorCode::not_finite:
       return "A number is not finite";
     case ErrorCode::not_a_triangle:
-      return "A face is not a triangle";
+      return "A face is neither a triangle nor a larger polygon";
     case ErrorCode::not_an_edge:
       return "A crease runs where there is no edge";
     case ErrorCode::duplicate_tag:

@@ -47,8 +47,8 @@ struct Spectrum {
   double steps_per_digit = 0;
 };
 
-// The one-ring of a smooth inner vertex: rows v, e0, ..., e(n-1), counter-clockwise, f0, ... where faces are quads. Valence 3 to
-// kMaxSpectrumValence (out_of_range at {"valence"}). With Loop's masks farther rings would add eigenvalues
+// The one-ring of a smooth inner vertex: rows v, e0, ..., e(n-1), counter-clockwise, f0, ... where faces are quads.
+// Valence 3 to kMaxSpectrumValence (out_of_range at {"valence"}). With Loop's masks farther rings would add eigenvalues
 // 1/8 and 1/16 only, which are subsubdominant at valence 3 alone: there the true one is 1/8, not this ring's
 // 1/16.
 Result<Spectrum> smooth_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget);

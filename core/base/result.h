@@ -28,7 +28,7 @@ enum class ErrorCode {
   wrong_length,     // array lengths that contradict each other
   not_finite,       // NaN or infinity where a finite number must stand
   // meaning of a mesh or a curve
-  not_a_triangle,
+  not_a_triangle,  // nor a larger polygon: of fewer than three vertices, or with one twice
   not_an_edge,     // a crease runs between points that share no edge
   duplicate_tag,   // a corner or hole is given twice
   too_few_points,  // a curve with fewer points than its basis needs
