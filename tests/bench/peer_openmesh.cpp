@@ -16,12 +16,12 @@ struct Traits : OpenMesh::DefaultTraits {
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 bool build(const PeerJob& job, Mesh& mesh) {
-  const std::size_t points = job.points.size() / 3, faces = job.triangles.size() / 3;
+  const std::size_t points = job.points.size() / 3, faces = job.corners.size() / 3;
   mesh.reserve(points, faces * 3 / 2, faces);
   for (std::size_t k = 0; k < job.points.size(); k += 3)
     mesh.add_vertex(Mesh::Point(job.points[k], job.points[k + 1], job.points[k + 2]));
-  const auto vertex = [&](std::size_t corner) { return Mesh::VertexHandle(job.triangles[corner]); };
-  for (std::size_t k = 0; k < job.triangles.size(); k += 3)
+  const auto vertex = [&](std::size_t corner) { return Mesh::VertexHandle(job.corners[corner]); };
+  for (std::size_t k = 0; k < job.corners.size(); k += 3)
     if (!mesh.add_face(vertex(k), vertex(k + 1), vertex(k + 2)).is_valid()) return false;
   return true;
 }
@@ -46,10 +46,10 @@ PeerTimes run_openmesh(const PeerJob& job) {
   subdivider(static_cast<std::size_t>(job.level));
   subdivider.detach();
   times.refine = stopwatch.lap();
-  times.ok = 3 * mesh.n_vertices() == job.out_points.size() && 3 * mesh.n_faces() == job.out_triangles.size();
+  times.ok = 3 * mesh.n_vertices() == job.out_points.size() && 3 * mesh.n_faces() == job.out_corners.size();
   if (!times.ok) return times;
   stopwatch.lap();
-  extract(mesh, job.out_points.data(), job.out_triangles.data());
+  extract(mesh, job.out_points.data(), job.out_corners.data());
   times.extract = stopwatch.lap();
   return times;
 }

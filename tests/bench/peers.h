@@ -1,6 +1,6 @@
 #pragma once
-// Other libraries' Loop subdivision, as far as they are installed (docker/packages.txt, section test). They
-// know no creases: on a mesh that has some they do a little less than we do.
+// Others' ways. Of libraries, as far as they are installed (docker/packages.txt, section test), Loop's scheme: they know no
+// creases, and on a mesh that has some they do a little less than we do. Of quads the half-edge way, written here.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,13 @@
 namespace subdivd::bench {
 
 struct PeerJob {
-  std::span<const float> points;  // x y z
-  std::span<const int> triangles;
+  std::span<const float> points;              // x y z
+  std::span<const int> corners;               // face after face
+  std::span<const int> creases;               // 2 points an edge
+  std::span<const float> crease_sharpnesses;  // one an edge
   int level;
   std::span<float> out_points;
-  std::span<std::uint32_t> out_triangles;
+  std::span<std::uint32_t> out_corners;
 };
 
 // Milliseconds; ok: the mesh was taken, and its refinement fills the output exactly.
@@ -25,10 +27,13 @@ struct PeerTimes {
 
 struct Peer {
   const char* name;
+  int face_size;  // of the meshes that it takes
   PeerTimes (*run)(const PeerJob&);
 };
 
 std::vector<Peer> installed_peers();
+
+PeerTimes run_half_edges(const PeerJob& job);
 PeerTimes run_cgal(const PeerJob& job);      // only where CGAL is installed
 PeerTimes run_openmesh(const PeerJob& job);  // only where OpenMesh is installed
 

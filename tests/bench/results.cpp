@@ -44,6 +44,7 @@ struct Ratio {
 constexpr std::array kRatios = {
     Ratio{"total_vs_far", "total", "Far", false},
     Ratio{"total_vs_memset", "total", "memset", true},
+    Ratio{"total_vs_half_edges", "total", "half-edges", false},
     Ratio{"reevaluate_vs_stencils", "again", "Far", false},
     Ratio{"reevaluate_vs_floor", "again", "floor", true},
     Ratio{"plan_vs_far_create", "plan_alone", "Far", false},
@@ -57,9 +58,10 @@ constexpr std::array kRatios = {
     Ratio{"in_process_vs_warm", "in_process", "base", true},
 };
 
-constexpr std::array<std::string_view, 9> kContestants = {"ours",   "Far",  "CGAL",  "OpenMesh", "memset",
-                                                          "memcpy", "base", "floor", "loopback"};
-constexpr std::array<std::string_view, 6> kRivals = {"Far", "CGAL", "OpenMesh", "memset", "base", "floor"};
+constexpr std::array<std::string_view, 10> kContestants = {
+    "ours", "Far", "CGAL", "OpenMesh", "half-edges", "memset", "memcpy", "base", "floor", "loopback"};
+constexpr std::array<std::string_view, 7> kRivals = {"Far",    "CGAL", "OpenMesh", "half-edges",
+                                                     "memset", "base", "floor"};
 
 // Phases are cut differently in every library: only what all of them do as a whole is compared.
 bool is_compared(std::string_view quantity) {
@@ -100,7 +102,7 @@ void print_heading(std::ostream& out) {
          "*_vs_floor, http_vs_core are /N;\n"
          "memory_vs_output is a share (0.15 = 15 %).\n\n";
   out << padded("workload", 17, false) << padded("quantity", 32, false) << padded("unit", 10, false);
-  for (const std::string_view who : kContestants) out << padded(who, 10, true);
+  for (const std::string_view who : kContestants) out << padded(who, 11, true);
   out << "  ";
   for (const std::string_view rival : kRivals)
     out << padded(std::string("vs ") + std::string(rival), 12, true);
