@@ -204,7 +204,7 @@ std::optional<Error> add_tangent_across(Spectrum& s, const EigenSystem& system) 
   return unexpected("the border rule has no tangent across the border");
 }
 
-template <SubdivisionScheme S>
+template <RunsOnGrids S>
 Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 3); !checked) return checked.error();
   Spectrum s = LocalRing<S>(scheme, valence, false).with_matrix(std::vector<float>(valence, 0.0f));
@@ -214,7 +214,7 @@ Result<Spectrum> smooth_spectrum_of(const S& scheme, Index valence, const Budget
   return s;
 }
 
-template <SubdivisionScheme S>
+template <RunsOnGrids S>
 Result<Spectrum> border_spectrum_of(const S& scheme, Index valence, const Budget& budget) {
   if (auto checked = check_valence(valence, 2); !checked) return checked.error();
   std::vector<float> sharp(valence, 0.0f);
@@ -229,11 +229,11 @@ Result<Spectrum> border_spectrum_of(const S& scheme, Index valence, const Budget
 
 }  // namespace
 
-Result<Spectrum> smooth_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget) {
+Result<Spectrum> smooth_spectrum(const AnyGridScheme& scheme, Index valence, const Budget& budget) {
   return std::visit([&](const auto& one) { return smooth_spectrum_of(one, valence, budget); }, scheme);
 }
 
-Result<Spectrum> border_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget) {
+Result<Spectrum> border_spectrum(const AnyGridScheme& scheme, Index valence, const Budget& budget) {
   return std::visit([&](const auto& one) { return border_spectrum_of(one, valence, budget); }, scheme);
 }
 
@@ -322,7 +322,7 @@ Result<Spectrum> four_point_spectrum(double tension, const Budget& budget) {
 
 namespace {
 
-template <SubdivisionScheme S>
+template <RunsOnGrids S>
 SchemeInfo info_of() {
   SchemeInfo info{std::string(S::name), "surface", {}};
   for (const SchemeOption<S>& option : S::options())
@@ -342,7 +342,9 @@ SchemeInfo info_of() {
 
 std::vector<SchemeInfo> list_of_schemes() {
   std::vector<SchemeInfo> list;
-  for_each_scheme(AllSchemes(), [&]<class S>(const S&) { list.push_back(info_of<S>()); });
+  for_each_scheme(AllSchemes(), [&]<class S>(const S&) {
+    if constexpr (RunsOnGrids<S>) list.push_back(info_of<S>());
+  });
   list.push_back(
       {std::string(kLaneRiesenfeld),
        "curve",
@@ -362,9 +364,15 @@ void set_word(SchemeChoice& choice, std::string_view parameter, std::size_t word
 }
 
 Result<Spectrum> spectrum(const SchemeChoice& choice, const Budget& budget) {
-  if (const auto scheme = find_scheme(choice.name, choice.schemes))
-    return choice.border ? border_spectrum(*scheme, choice.valence, budget)
-                         : smooth_spectrum(*scheme, choice.valence, budget);
+  if (const auto scheme = find_scheme(choice.name, choice.schemes)) {
+    const auto on_grids = as_one_of<AnyGridScheme>(*scheme);
+    if (!on_grids)
+      return Error{ErrorCode::unsupported,
+                   "no spectrum of this scheme is computed yet: its masks see further than a ring",
+                   {"scheme"}};
+    return choice.border ? border_spectrum(*on_grids, choice.valence, budget)
+                         : smooth_spectrum(*on_grids, choice.valence, budget);
+  }
   if (choice.name == kLaneRiesenfeld) return lane_riesenfeld_spectrum(choice.degree, budget);
   if (choice.name == kFourPoint) return four_point_spectrum(choice.tension, budget);
   std::string known;

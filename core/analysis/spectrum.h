@@ -51,13 +51,13 @@ struct Spectrum {
 // Valence 3 to kMaxSpectrumValence (out_of_range at {"valence"}). With Loop's masks farther rings would add eigenvalues
 // 1/8 and 1/16 only, which are subsubdominant at valence 3 alone: there the true one is 1/8, not this ring's
 // 1/16.
-Result<Spectrum> smooth_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget);
+Result<Spectrum> smooth_spectrum(const AnyGridScheme& scheme, Index valence, const Budget& budget);
 
 // The same for a border vertex of 2 to kMaxSpectrumValence edges, e0 and e(n-1) on the border, which is also
 // each side of a crease. Loop's tangents belong to 1/2 (along) and to 3/8 + cos(pi / (n-1)) / 4, or 1/4 at valence 2
 // (across). From valence 8 on 3/8 + cos(2 pi / (n-1)) / 4 is above 1/2: the two are not the two largest below
 // 1 any more, which is a known weakness of the rule.   [Biermann00]
-Result<Spectrum> border_spectrum(const AnyScheme& scheme, Index valence, const Budget& budget);
+Result<Spectrum> border_spectrum(const AnyGridScheme& scheme, Index valence, const Budget& budget);
 
 // B-splines of degree p, 1 to kMaxSpectrumDegree (out_of_range at {"degree"}), around a control point (p odd)
 // or around the middle of a span, between c[0] and c[1] (p even): p + 2 points. Masks binom(p+1, i) / 2^p;
@@ -101,8 +101,8 @@ struct SchemeChoice {
 // Sets a parameter of type "word" to the word of that number.
 void set_word(SchemeChoice& choice, std::string_view parameter, std::size_t word);
 
-// The spectrum of that scheme. Fails as its own function does, and with bad_enum at {"scheme"} for a name
-// that is not in the list.
+// The spectrum of that scheme. Fails as its own function does, with bad_enum at {"scheme"} for a name that is not in
+// the list, and with unsupported there for a scheme that sees further than a ring.
 Result<Spectrum> spectrum(const SchemeChoice& choice, const Budget& budget);
 
 }  // namespace subdivd

@@ -24,7 +24,7 @@ float SemiSharp::vertex(Index v) const {
 }
 
 template <class Faces>
-Net<Faces> Net<Faces>::build(const AnyScheme& scheme, CreaseMethod method,
+Net<Faces> Net<Faces>::build(const AnyGridScheme& scheme, CreaseMethod method,
                              std::shared_ptr<const Topology<Faces>> topology, Sharpness&& sharpness,
                              Index max_level, const Pace& pace) {
   Net net;

@@ -63,7 +63,7 @@ template <class Faces>
 class Net {
  public:
   // Of the mesh.
-  static Net build(const AnyScheme& scheme, CreaseMethod method,
+  static Net build(const AnyGridScheme& scheme, CreaseMethod method,
                    std::shared_ptr<const Topology<Faces>> topology, Sharpness&& sharpness, Index max_level,
                    const Pace& pace);
   // Of a channel of it, whose semi-sharp edges decay with the mesh's.
@@ -73,7 +73,7 @@ class Net {
   // The same, to be kept: nets and render meshes that connect alike share it.
   const std::shared_ptr<const Topology<Faces>>& shared_topology() const { return topology_; }
   const Sharpness& sharpness() const { return sharpness_; }
-  const AnyScheme& scheme() const { return scheme_; }
+  const AnyGridScheme& scheme() const { return scheme_; }
   CreaseMethod crease_method() const { return method_; }
   Index max_level() const { return max_level_; }
   Smoothing smoothing() const { return linear_ ? Smoothing::linear : Smoothing::smooth; }
@@ -118,7 +118,7 @@ class Net {
                                const Pace& pace) const;
 
   std::shared_ptr<const Net> mesh_;
-  AnyScheme scheme_;
+  AnyGridScheme scheme_;
   CreaseMethod method_ = CreaseMethod::uniform;
   Index max_level_ = 0;
   bool linear_ = false;

@@ -434,7 +434,7 @@ template bool set_normal(Frame<double>&);
 #define SUBDIVD_INSTANTIATE(S)        \
   template class LimitRing<S, float>; \
   template class LimitRing<S, double>;
-SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+SUBDIVD_FOR_EACH_GRID_SCHEME(SUBDIVD_INSTANTIATE)
 #undef SUBDIVD_INSTANTIATE
 template void normalize<float>(float[3]);
 template void normalize<double>(double[3]);

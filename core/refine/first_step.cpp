@@ -9,15 +9,6 @@
 namespace subdivd {
 namespace {
 
-plain::Adjacency adjacency_of(const Topology<Polygons>& polygons, const Pace& pace) {
-  std::vector<Index> half_edge_edges;
-  pace.copy(polygons.half_edge_edges(), half_edge_edges);
-  std::vector<std::array<Index, 2>> ends;
-  pace.copy(polygons.edge_vertices(), ends);
-  return plain::Adjacency(polygons.vertex_count(), polygons.faces(), std::move(half_edge_edges),
-                          std::move(ends), pace);
-}
-
 template <class Real>
 void put_means(const Connectivity<Polygons>& polygons, const Real* from, Index width, Real* out,
                const Pace& pace) {
@@ -69,11 +60,11 @@ std::shared_ptr<const Topology<Quads>> quads_of(const Connectivity<Polygons>& po
                                                  std::move(ends), pace);
 }
 
-MeshFirstStep first_step(const AnyScheme& scheme, CreaseMethod method,
+MeshFirstStep first_step(const AnyGridScheme& scheme, CreaseMethod method,
                          std::shared_ptr<const Topology<Polygons>> polygons, Sharpness sharpness,
                          const Pace& pace) {
   MeshFirstStep made;
-  made.level = plain::first_level(adjacency_of(*polygons, pace), std::move(sharpness), method, pace);
+  made.level = plain::first_level(plain::adjacency_of(*polygons, pace), std::move(sharpness), method, pace);
   made.step.quads = quads_of(*polygons, pace);
   made.step.sharpness =
       plain::next_sharpness(made.level, made.step.quads->vertex_count(), made.step.quads->edge_count(), pace);
@@ -82,12 +73,12 @@ MeshFirstStep first_step(const AnyScheme& scheme, CreaseMethod method,
   return made;
 }
 
-FirstStep first_step(const AnyScheme& scheme, CreaseMethod method, Channel<Polygons> channel,
+FirstStep first_step(const AnyGridScheme& scheme, CreaseMethod method, Channel<Polygons> channel,
                      const plain::Level& mesh, const Pace& pace) {
   FirstStep step;
   const plain::Level level =
-      plain::first_level(adjacency_of(*channel.topology, pace), std::move(channel.sharpness), channel.linear,
-                         channel.linear_borders, mesh, pace);
+      plain::first_level(plain::adjacency_of(*channel.topology, pace), std::move(channel.sharpness),
+                         channel.linear, channel.linear_borders, mesh, pace);
   step.quads = quads_of(*channel.topology, pace);
   step.sharpness = plain::next_sharpness(level, step.quads->vertex_count(), step.quads->edge_count(), pace);
   if (!channel.linear) step.rows = plain::rows_of(scheme, method, level, false, pace);

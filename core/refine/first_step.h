@@ -35,10 +35,10 @@ struct MeshFirstStep {
   FirstStep step;
   plain::Level level;
 };
-MeshFirstStep first_step(const AnyScheme& scheme, CreaseMethod method,
+MeshFirstStep first_step(const AnyGridScheme& scheme, CreaseMethod method,
                          std::shared_ptr<const Topology<Polygons>> polygons, Sharpness sharpness,
                          const Pace& pace);
-FirstStep first_step(const AnyScheme& scheme, CreaseMethod method, Channel<Polygons> channel,
+FirstStep first_step(const AnyGridScheme& scheme, CreaseMethod method, Channel<Polygons> channel,
                      const plain::Level& mesh, const Pace& pace);
 
 // Values of the quads' vertices. `linear`: edges get midpoints and faces means, whatever the rules.

@@ -27,11 +27,12 @@ Error no_such_scheme(std::string_view name) {
                {"subdivisionScheme"}};
 }
 
-Error other_faces(std::string_view name, FaceSizes sizes, std::size_t face, Index corners,
+// `given`: the sizes that all faces of the mesh have.
+Error other_faces(std::string_view name, FaceSizes sizes, FaceSizes given, std::size_t face, Index corners,
                   const AllSchemes& schemes) {
   std::string others;
   for_each_scheme(schemes, [&]<class S>(const S&) {
-    if (S::face_sizes.least <= corners && corners <= S::face_sizes.most)
+    if (S::face_sizes.least <= given.least && given.most <= S::face_sizes.most)
       others += (others.empty() ? "" : " or ") + in_quotes(S::name);
   });
   const std::string takes = sizes.least == sizes.most
@@ -40,7 +41,7 @@ Error other_faces(std::string_view name, FaceSizes sizes, std::size_t face, Inde
   return Error{ErrorCode::unsupported,
                in_quotes(name) + " takes faces of " + takes + " vertices, and face " + std::to_string(face) +
                    " has " + std::to_string(corners) + ": take " + others +
-                   ", or set triangulate to true to split larger faces",
+                   (sizes.least == 3 ? ", or set triangulate to true to split larger faces" : ""),
                {"subdivisionScheme"}};
 }
 
@@ -127,12 +128,14 @@ Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const P
   const FaceSizes taken = face_sizes_of(*scheme);
   if (given.least < taken.least || given.most > taken.most) {
     std::size_t face = 0;
-    while (cage.face_vertex_counts[face] >= taken.least && cage.face_vertex_counts[face] <= taken.most) {
+    while (cage.face_size(face) >= taken.least && cage.face_size(face) <= taken.most) {
       pace.spend(1);
       ++face;
     }
-    return other_faces(cage.subdivision_scheme, taken, face, cage.face_vertex_counts[face], schemes);
+    return other_faces(cage.subdivision_scheme, taken, given, face, cage.face_size(face), schemes);
   }
+  if (!takes_semi_sharp(*scheme))
+    if (auto fine = refuse_semi_sharp(name_of(*scheme), cage); !fine) return std::move(fine).error();
   if (auto* catmull_clark = std::get_if<CatmullClark>(&*scheme))
     catmull_clark->triangles = cage.triangle_subdivision_rule;
   return *scheme;
@@ -151,10 +154,14 @@ Count plan_bytes(const Cage& cage, const PlanOptions& options, const Pace& pace)
   const FaceSizes sizes = sizes_of(cage, pace);
   const auto scheme = scheme_of_mesh(cage.subdivision_scheme, sizes, options.schemes);
   const Count nets = 1 + cage.channels.size(), corners = cage.face_vertex_indices.size();
+  const bool by_steps = scheme && as_one_of<AnyInterpolatingScheme>(*scheme).has_value();
   const Count per_corner =
-      scheme && has_first_step(*scheme, sizes) ? kBytesPerCornerOfFirstStep : kBytesPerCorner;
-  Count bytes = (per_corner * corners + kBytesPerPoint * cage.point_count) *
-                (nets + (cage.render_meshes.empty() ? 0 : 1));
+      scheme && !by_steps && has_first_step(*scheme, sizes) ? kBytesPerCornerOfFirstStep : kBytesPerCorner;
+  Count bytes = by_steps ? steps_bytes(corners, options.max_level, options.frames) +
+                               (nets - 1) * steps_bytes(corners, options.max_level, false)
+                         : 0;
+  bytes += (per_corner * corners + kBytesPerPoint * cage.point_count) *
+           (nets + (cage.render_meshes.empty() ? 0 : 1));
   if (options.crease_method == CreaseMethod::chaikin) {
     const Count edges = std::min<Count>(cage.crease_indices.size(), corners);
     bytes += nets * chaikin_bytes(edges, options.max_level);
@@ -171,25 +178,57 @@ struct Plan::Builder {
   Plan& plan;
 
   template <class Faces>
-  Result<void> build() {
-    auto topology = std::make_shared<const Topology<Faces>>(
+  std::shared_ptr<const Topology<Faces>> whole_topology() const {
+    return std::make_shared<const Topology<Faces>>(
         cage.point_count,
         faces_of<Faces>(cage, 0, static_cast<Index>(cage.face_count()), cage.face_vertex_indices, pace),
         pace);
+  }
+
+  // By `plain`, level after level.
+  template <class Faces>
+  Result<void> build(const AnyInterpolatingScheme& scheme) {
+    const auto topology = whole_topology<Faces>();
+    Sharpness sharpness = control_sharpness(cage, *topology, pace);
+    plan.holes_ = hole_flags(cage, *topology, pace);
+    if (auto fits = check_points(refined_vertex_count(*topology, options.max_level)); !fits) return fits;
+    const auto steps_of = [&](const Topology<Faces>& of, std::shared_ptr<const Lattice> lattice,
+                              Sharpness of_it, bool linear, bool linear_borders, bool frames) {
+      plain::Level level =
+          plain::first_level(plain::adjacency_of(of, pace), std::move(of_it), options.crease_method, pace);
+      level.linear = linear;
+      level.linear_borders = linear_borders;
+      return interpolating_steps(scheme, std::move(level), std::move(lattice), options.max_level, frames,
+                                 pace);
+    };
+    plan.parts_.push_back(make_refinable(
+        steps_of(*topology, lattice_of<Faces>(topology, pace), sharpness, false, false, options.frames)));
+    add_channels<Faces>(topology, sharpness, [&](Channel<Faces> channel) {
+      Steps steps = steps_of(*channel.topology, lattice_of<Faces>(channel.topology, pace),
+                             std::move(channel.sharpness), channel.linear, channel.linear_borders, false);
+      steps.values = std::move(channel.values);
+      return make_refinable(std::move(steps));
+    });
+    add_render_meshes<Faces>();
+    return {};
+  }
+
+  // On grids, polygons after a first step.
+  template <class Faces>
+  Result<void> build(const AnyGridScheme& scheme) {
+    const auto topology = whole_topology<Faces>();
     Sharpness sharpness = control_sharpness(cage, *topology, pace);
     plan.holes_ = hole_flags(cage, *topology, pace);
     if constexpr (std::is_same_v<Faces, Polygons>) {
-      MeshFirstStep first = first_step(plan.scheme_, options.crease_method, topology, sharpness, pace);
+      MeshFirstStep first = first_step(scheme, options.crease_method, topology, sharpness, pace);
       const plain::Level& level = first.level;
       const Index depth = options.max_level - std::min<Index>(options.max_level, 1);
       if (auto fits = check_points(refined_vertex_count(*first.step.quads, depth)); !fits) return fits;
-      auto net = std::make_shared<const Net<Quads>>(
-          Net<Quads>::build(plan.scheme_, options.crease_method, first.step.quads,
-                            std::move(first.step.sharpness), depth, pace));
+      auto net = std::make_shared<const Net<Quads>>(Net<Quads>::build(
+          scheme, options.crease_method, first.step.quads, std::move(first.step.sharpness), depth, pace));
       plan.parts_.push_back(make_refinable(std::move(first.step), net));
       add_channels<Polygons>(topology, sharpness, [&](Channel<Polygons> channel) {
-        FirstStep of_channel =
-            first_step(plan.scheme_, options.crease_method, std::move(channel), level, pace);
+        FirstStep of_channel = first_step(scheme, options.crease_method, std::move(channel), level, pace);
         Channel<Quads> quads{of_channel.quads, std::move(of_channel.sharpness), {}, of_channel.linear, false};
         quads.linear_borders =
             !quads.linear && cage.face_varying_linear_interpolation == FaceVaryingInterpolation::boundaries;
@@ -199,7 +238,7 @@ struct Plan::Builder {
     } else {
       if (auto fits = check_points(refined_vertex_count(*topology, options.max_level)); !fits) return fits;
       auto net = std::make_shared<const Net<Faces>>(Net<Faces>::build(
-          plan.scheme_, options.crease_method, topology, std::move(sharpness), options.max_level, pace));
+          scheme, options.crease_method, topology, std::move(sharpness), options.max_level, pace));
       plan.parts_.push_back(make_refinable(net));
       add_channels<Faces>(topology, net->sharpness(), [&](Channel<Faces> channel) {
         return make_refinable(
@@ -277,9 +316,14 @@ Result<Plan> Plan::build(const Cage& cage, const PlanOptions& options, const Bud
     plan.scheme_ = *std::move(scheme);
     Builder builder{cage, options, budget, pace, plan};
     const FaceSizes sizes = sizes_of(cage, pace);
-    auto built = splits_into_triangles(plan.scheme_)   ? builder.build<Triangles>()
-                 : has_first_step(plan.scheme_, sizes) ? builder.build<Polygons>()
-                                                       : builder.build<Quads>();
+    const bool triangles = splits_into_triangles(plan.scheme_);
+    Result<void> built;
+    if (const auto on_grids = as_one_of<AnyGridScheme>(plan.scheme_))
+      built = triangles                             ? builder.build<Triangles>(*on_grids)
+              : has_first_step(plan.scheme_, sizes) ? builder.build<Polygons>(*on_grids)
+                                                    : builder.build<Quads>(*on_grids);
+    else if (const auto by_steps = as_one_of<AnyInterpolatingScheme>(plan.scheme_))
+      built = triangles ? builder.build<Triangles>(*by_steps) : builder.build<Quads>(*by_steps);
     if (!built) return std::move(built).error();
     return plan;
   });

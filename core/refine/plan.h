@@ -23,13 +23,17 @@ struct PlanOptions {
   AllSchemes schemes = {};  // the options of the one that the mesh names
   CreaseMethod crease_method = CreaseMethod::uniform;
   Index max_level = kMaxLevel;  // the plan serves levels 0 to this
+  // Whether tangents and normals will be asked for: schemes that `plain` refines take rows of their own for them, and
+  // those of the refined faces where they have none.
+  bool frames = true;
 };
 
 // Refuses levels over kMaxLevel (out_of_range).
 Result<void> check_level(Index level);
 
 // The scheme that a mesh of these faces is refined by, with its options. Fails for a name that is not in the list
-// (bad_enum), and for faces that the scheme does not take (unsupported), both at {"subdivisionScheme"}.
+// (bad_enum), and for faces that the scheme does not take (unsupported), both at {"subdivisionScheme"}; and for
+// sharpness that runs out where the scheme takes none such (unsupported, at its place).
 Result<AnyScheme> scheme_of(const Cage& cage, const AllSchemes& schemes, const Pace& pace);
 
 // What building a plan takes at most, and holding it: known before anything but the cage's sizes is.

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/engine/grid/evaluate.h"
+#include "core/limit/face_frames.h"
+#include "core/refine/linear.h"
 
 namespace subdivd {
 namespace {
@@ -160,6 +162,119 @@ class OfPolygons final : public Refinable {
   std::shared_ptr<const Net<Quads>> net_;
 };
 
+Count bytes_of(const plain::StepRows& step) {
+  Count bytes = 0;
+  for (const plain::SparseRows* rows : {&step.rows, &step.sums})
+    bytes += rows->columns.size() * (sizeof(Index) + sizeof(double)) + rows->offsets.size() * sizeof(Count);
+  return bytes;
+}
+
+class OfSteps final : public Refinable {
+ public:
+  explicit OfSteps(Steps steps) : Refinable(steps.lattice), steps_(std::move(steps)) {}
+
+  std::span<const Index> value_indices() const override { return steps_.values; }
+  Result<void> evaluate(Index level, Buffer<float>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<float>& out, Index, const Budget& budget) const override {
+    return evaluate_all<float>(level, std::move(control), width, smoothing, out, budget);
+  }
+  Result<void> evaluate(Index level, Buffer<double>&& control, Index width, Smoothing smoothing,
+                        const Evaluated<double>& out, Index, const Budget& budget) const override {
+    return evaluate_all<double>(level, std::move(control), width, smoothing, out, budget);
+  }
+
+  Count resident_bytes() const override {
+    Count bytes = kBytesPerCorner * lattice()->base_corners().size();
+    for (const auto* list : {&steps_.rows, &steps_.tangents})
+      for (const plain::StepRows& step : *list) bytes += bytes_of(step);
+    return bytes;
+  }
+  // The last step's rows once more, and the faces that they are made from.
+  Count building_bytes() const override {
+    constexpr Count kOfCorner = 160;
+    const Index levels = static_cast<Index>(std::max(steps_.rows.size(), steps_.tangents.size()));
+    const Index last = levels - std::min<Index>(levels, 1);
+    return resident_bytes() + (kOfCorner * lattice()->base_corners().size() << (2 * last));
+  }
+  Count evaluation_bytes(Index level, Index width, Count scalar_bytes, bool limits,
+                         const Pace&) const override {
+    const Count last = value_count(level), before = value_count(level - std::min<Index>(level, 1));
+    Count bytes = 3 * (last + before) * width * scalar_bytes;
+    if (limits)
+      bytes += 12 * last * scalar_bytes +
+               lattice()->face_count(level) * lattice()->face_size(level) * sizeof(Index);
+    return bytes;
+  }
+
+ private:
+  static constexpr Count kBytesPerCorner = 96;
+
+  template <class Real>
+  Result<void> evaluate_all(Index level, Buffer<Real> control, Index width, Smoothing smoothing,
+                            const Evaluated<Real>& out, const Budget& budget) const {
+    return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+      const Buffer<Real> values = steps_.linear || smoothing == Smoothing::linear
+                                      ? linear_values<Real>(level, control, width, pace)
+                                      : refined_values<Real>(level, std::move(control), width, pace);
+      for (Real* const to : {out.values, out.limits})  // vertices stay
+        if (to != nullptr)
+          pace.in_blocks(values.size(), [&](Count begin, Count end) {
+            std::copy_n(&values[begin], end - begin, to + begin);
+          });
+      return out.wants_frames() ? write_all_frames<Real>(level, values, out, pace, budget) : Result<void>();
+    });
+  }
+
+  template <class Real>
+  Buffer<Real> linear_values(Index level, std::span<const Real> control, Index width,
+                             const Pace& pace) const {
+    Buffer<Real> values(value_count(level) * width);
+    interpolate_linearly<Real>(*lattice(), level, control, width, values.data(), pace);
+    return values;
+  }
+
+  template <class Real>
+  Buffer<Real> refined_values(Index level, Buffer<Real> values, Index width, const Pace& pace) const {
+    for (Index k = 0; k < level; ++k) {
+      Buffer<Real> next(value_count(k + 1) * width);
+      plain::apply<Real>(steps_.rows[k], values, width, next.data(), pace);
+      values = std::move(next);
+    }
+    return values;
+  }
+
+  // Of positions.
+  template <class Real>
+  Result<void> write_all_frames(Index level, std::span<const Real> points, const Evaluated<Real>& out,
+                                const Pace& pace, const Budget& budget) const {
+    const std::vector<unsigned char> no_holes(lattice()->base_face_count(), 0);
+    Buffer<Index> corners(lattice()->face_count(level) * lattice()->face_size(level));
+    if (auto done = lattice()->write_faces(level, no_holes, corners.data(), 1, budget); !done) return done;
+    const FaceFrames<Real> of_faces(points, lattice()->face_size(level), corners, pace);
+    corners = {};
+    const plain::StepRows none, &rows = level < steps_.tangents.size() ? steps_.tangents[level] : none;
+    const std::vector<Real> tangents = plain::apply<Real>(rows, points, 3, pace);
+    const auto is_known = [&](Index v) {
+      const auto& offsets = rows.rows.offsets;
+      return offsets.size() > 2 * Count{v} + 1 && offsets[2 * Count{v} + 1] != offsets[2 * Count{v}];
+    };
+    pace.for_each(static_cast<Index>(value_count(level)), [&](Index v) {
+      Frame<Real> frame;
+      if (is_known(v)) {
+        std::copy_n(&tangents[6 * Count{v}], 3, frame.u);
+        std::copy_n(&tangents[6 * Count{v} + 3], 3, frame.v);
+      }
+      if (!is_known(v) || !set_normal(frame)) frame = of_faces.at(v);
+      FrameMean<Real> mean;
+      mean.add(frame);
+      write_frames(mean, out, v);
+    });
+    return {};
+  }
+
+  Steps steps_;
+};
+
 }  // namespace
 
 std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Triangles>> net) {
@@ -170,6 +285,10 @@ std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Quads>
 }
 std::shared_ptr<const Refinable> make_refinable(FirstStep step, std::shared_ptr<const Net<Quads>> net) {
   return std::make_shared<const OfPolygons>(std::move(step), std::move(net));
+}
+
+std::shared_ptr<const Refinable> make_refinable(Steps steps) {
+  return std::make_shared<const OfSteps>(std::move(steps));
 }
 
 }  // namespace subdivd

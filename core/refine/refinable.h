@@ -16,6 +16,7 @@
 #include "core/engine/net.h"
 #include "core/lattice/lattice.h"
 #include "core/refine/first_step.h"
+#include "core/refine/steps.h"
 
 namespace subdivd {
 
@@ -62,5 +63,8 @@ std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Triang
 std::shared_ptr<const Refinable> make_refinable(std::shared_ptr<const Net<Quads>> net);
 // Polygons, whose first step makes the quads of `net`.
 std::shared_ptr<const Refinable> make_refinable(FirstStep step, std::shared_ptr<const Net<Quads>> net);
+// Level by level, to the last level of the steps. Tangents and normals where no mask of tangents is known are those of
+// the refined faces (core/limit/face_frames.h).
+std::shared_ptr<const Refinable> make_refinable(Steps steps);
 
 }  // namespace subdivd

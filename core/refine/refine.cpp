@@ -57,7 +57,7 @@ class Job {
 
   Result<RefinedMesh<Real>> run() {
     out_.name = mesh_.name;
-    out_.scheme = std::visit([]<class S>(const S&) { return S::name; }, plan_.scheme());
+    out_.scheme = name_of(plan_.scheme());
     out_.level = options_.level;
     for (Index level = 0; level <= options_.level; ++level)
       out_.levels.push_back(plan_.mesh().lattice()->counts(level));
@@ -206,7 +206,7 @@ class Job {
 }  // namespace
 
 PlanOptions plan_options(const RefineOptions& options) {
-  return {options.schemes, options.crease_method, options.level};
+  return {options.schemes, options.crease_method, options.level, options.tangents || options.normals};
 }
 
 template <class Real>

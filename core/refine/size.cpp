@@ -144,7 +144,14 @@ template <class Real>
 Result<RefinedSize> predict_size(const ControlMesh& mesh, const RefineOptions& options,
                                  const Budget& budget) {
   if (auto allowed = check_level(options.level); !allowed) return std::move(allowed).error();
-  const auto plan = Plan::build(mesh, {options.schemes, options.crease_method, 0}, budget);
+  const auto scheme =
+      stoppable(budget, [&](const Pace& pace) { return scheme_of(mesh, options.schemes, pace); });
+  if (!scheme) return scheme.error();
+  // Grids need no level to know what it would take; rows of steps are counted when they stand.
+  const bool by_steps = as_one_of<AnyInterpolatingScheme>(*scheme).has_value();
+  const auto plan = Plan::build(
+      mesh, by_steps ? plan_options(options) : PlanOptions{options.schemes, options.crease_method, 0},
+      budget);
   if (!plan) return plan.error();
   return predict_size<Real>(mesh, *plan, options, budget);
 }

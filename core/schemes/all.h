@@ -12,17 +12,29 @@
 #include <variant>
 
 #include "core/schemes/bilinear.h"
+#include "core/schemes/butterfly.h"
 #include "core/schemes/catmull_clark.h"
+#include "core/schemes/kobbelt.h"
 #include "core/schemes/loop.h"
+#include "core/schemes/tags.h"
 
-// What stands once for every scheme (explicit instantiations) is made by this.
-#define SUBDIVD_FOR_EACH_SCHEME(X) X(Loop) X(CatmullClark) X(Bilinear)
+// What stands once for every scheme (explicit instantiations) is made by these: of those that the engines on grids run,
+// of those that `plain` runs and that leave vertices where they are, and of all.
+#define SUBDIVD_FOR_EACH_GRID_SCHEME(X) X(Loop) X(CatmullClark) X(Bilinear)
+#define SUBDIVD_FOR_EACH_INTERPOLATING_SCHEME(X) X(Butterfly) X(Kobbelt)
+#define SUBDIVD_FOR_EACH_SCHEME(X) SUBDIVD_FOR_EACH_GRID_SCHEME(X) SUBDIVD_FOR_EACH_INTERPOLATING_SCHEME(X)
 
 namespace subdivd {
 
 // What a scheme lacks is said here, in a sentence, not by the depths of what would have used it.
 #define SUBDIVD_REQUIRE(S) template struct RequireScheme<S>;
 SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_REQUIRE)
+#undef SUBDIVD_REQUIRE
+#define SUBDIVD_REQUIRE(S) template struct RequireGridScheme<S>;
+SUBDIVD_FOR_EACH_GRID_SCHEME(SUBDIVD_REQUIRE)
+#undef SUBDIVD_REQUIRE
+#define SUBDIVD_REQUIRE(S) template struct RequireInterpolatingScheme<S>;
+SUBDIVD_FOR_EACH_INTERPOLATING_SCHEME(SUBDIVD_REQUIRE)
 #undef SUBDIVD_REQUIRE
 
 namespace detail {
@@ -33,13 +45,19 @@ struct Schemes {
 };
 #define SUBDIVD_AND_SCHEME(S) , S
 using Listed = Schemes<void SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_AND_SCHEME)>;
+using OnGrids = Schemes<void SUBDIVD_FOR_EACH_GRID_SCHEME(SUBDIVD_AND_SCHEME)>;
+using Interpolating = Schemes<void SUBDIVD_FOR_EACH_INTERPOLATING_SCHEME(SUBDIVD_AND_SCHEME)>;
 #undef SUBDIVD_AND_SCHEME
 }  // namespace detail
 
 // One of each: what a request sets of every scheme's options, whichever of them its meshes name.
 using AllSchemes = detail::Listed::Tuple;
-// One scheme of the list, with its options.
+// One scheme of the list, with its options; one of those that a family of engines runs.
 using AnyScheme = detail::Listed::Variant;
+using AnyGridScheme = detail::OnGrids::Variant;
+using AnyInterpolatingScheme = detail::Interpolating::Variant;
+// One of each of those that the engines on grids run.
+using AllGridSchemes = detail::OnGrids::Tuple;
 
 inline constexpr std::size_t kSchemeCount = std::tuple_size_v<AllSchemes>;
 
@@ -86,6 +104,23 @@ inline std::optional<AnyScheme> find_scheme(std::string_view name, const AllSche
   return detail::find_first(schemes, [&]<class S>() { return S::name == name; });
 }
 
+// The same scheme as one of a family's; nothing when it is none of these.
+template <class Family>
+std::optional<Family> as_one_of(const AnyScheme& scheme) {
+  return std::visit(
+      []<class S>(const S& one) -> std::optional<Family> {
+        if constexpr (std::is_constructible_v<Family, S>)
+          return Family(one);
+        else
+          return std::nullopt;
+      },
+      scheme);
+}
+
+inline std::string_view name_of(const AnyScheme& scheme) {
+  return std::visit([]<class S>(const S&) -> std::string_view { return S::name; }, scheme);
+}
+
 // The sizes of faces that a scheme takes.
 inline FaceSizes face_sizes_of(const AnyScheme& scheme) {
   return std::visit([]<class S>(const S&) { return S::face_sizes; }, scheme);
@@ -102,6 +137,11 @@ inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, FaceSizes 
   return detail::find_first(schemes, [&]<class S>() {
     return S::face_sizes.least <= sizes.least && sizes.most <= S::face_sizes.most;
   });
+}
+
+// Whether sharpness may run out with the levels (tags.h).
+inline bool takes_semi_sharp(const AnyScheme& scheme) {
+  return std::visit([]<class S>(const S&) { return takes_semi_sharp<S>(); }, scheme);
 }
 
 // Why OpenSubdiv cannot refine as this scheme does with its options: a clause that begins with a verb and

@@ -43,6 +43,9 @@ struct Kobbelt {
     constexpr double c = tension / (1.0 / 2 + tension);
     return {4.0 / n, -1, c, -4 * c / n};
   }
+  // The left eigenvector of the subdominant eigenvalue, of the first wave around a smooth vertex whose two rings are
+  // otherwise regular, scaled to end = 1. n >= 3.
+  TwoRingMask tangent_mask(Index n) const;
 };
 
 }  // namespace subdivd

@@ -1,6 +1,7 @@
 #pragma once
 // Weights in a neighbourhood, in double whatever the mesh is computed in.
 
+#include <complex>
 #include <vector>
 
 #include "core/base/index.h"
@@ -63,6 +64,14 @@ struct SectorMask {
 // l_{i+1}) + near_faces (k_{i-2} + k_{i-1} + k_i + k_{i+1}) + all_faces times the sum of k.
 struct ExtensionMask {
   double all_ends = 0, near_ends = 0, near_faces = 0, all_faces = 0;
+};
+
+// Two tangents at a vertex v inside, of n edges, from two rings around it: real and minus imaginary part of the sum over all
+// j of exp(-2 pi i j / n) (end l_j + face k_j + behind m_j + beside a_j + beyond c_j + across b_j). Sector j has the corners
+// l_j and k_j of its face at v; m_j lies behind l_j, c_j behind k_j opposite to v, a_j between m_j and c_j, b_j between c_j
+// and m_{j+1}.
+struct TwoRingMask {
+  std::complex<double> end, face, behind, beside, beyond, across;
 };
 
 // On an edge (a, b) whose surroundings are regular: end (a + b) + opposite (o_0 + o_1) + wing (w_0 + ... + w_3), o being

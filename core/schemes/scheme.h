@@ -93,11 +93,12 @@ concept HasRingMasks = requires(const S& scheme, Index n, Index k, Index i) {
 };
 
 // Of Split::quads where vertices stay, and points follow the four-point rule of that tension along the lines of a net of
-// quads: how a line goes on behind a smooth vertex of n edges, n other than 2 and 4.
+// quads: how a line goes on behind a smooth vertex of n edges, n other than 2 and 4, and its tangents.
 template <class S>
 concept HasLineMasks = requires(const S& scheme, Index n) {
   { S::tension } -> std::convertible_to<double>;
   { scheme.extension_mask(n) } -> std::same_as<ExtensionMask>;
+  { scheme.tangent_mask(n) } -> std::same_as<TwoRingMask>;
 };
 
 // Smooth vertex of valence n; a crease along edges a and b; a dart whose crease runs along edge 0 of a ring
@@ -133,15 +134,30 @@ concept AnswersForOpenSubdiv = requires(const S& scheme) {
   { scheme.beyond_opensubdiv() } -> std::convertible_to<std::string_view>;
 };
 
+// What any scheme of the list has, whichever engine runs it.
 template <class S>
-concept SubdivisionScheme = HasOptions<S> && HasSplit<S> && HasMasks<S> && HasLimitMasks<S> &&
-    HasTangentMasks<S> && AnswersForOpenSubdiv<S>;
+concept SubdivisionScheme = HasOptions<S> && HasSplit<S> && AnswersForOpenSubdiv<S>;
+
+// What the engines on grids ask for: masks that see the ring of a vertex or edge and no more.
+template <class S>
+concept RunsOnGrids = SubdivisionScheme<S> && HasMasks<S> && HasLimitMasks<S> && HasTangentMasks<S>;
+
+// What `plain` runs level by level where vertices stay.
+template <class S>
+concept Interpolates = SubdivisionScheme<S> &&
+    ((HasRingMasks<S> && S::split == Split::triangles) || (HasLineMasks<S> && S::split == Split::quads));
 
 // Says in a sentence what a scheme lacks; all.h asks it of every scheme of the list.
 template <class S>
 struct RequireScheme {
   static_assert(HasOptions<S>, "a scheme needs a default, copies, a name and options(): see HasOptions");
   static_assert(HasSplit<S>, "a scheme needs constants split, face_sizes and regular_valence: see HasSplit");
+  static_assert(AnswersForOpenSubdiv<S>,
+                "a scheme needs beyond_opensubdiv(): see beyond_opensubdiv() of all.h");
+};
+
+template <class S>
+struct RequireGridScheme {
   static_assert(HasMasks<S>, "a scheme needs edge_mask and vertex_mask: see HasMasks");
   static_assert(
       HasLimitMasks<S>,
@@ -150,8 +166,12 @@ struct RequireScheme {
                 "a scheme needs flat_corner_faces, smooth_tangent_u and _v, dart_tangent_u and "
                 "crease_tangent_across, with a "
                 "pace and without: see HasTangentMasks");
-  static_assert(AnswersForOpenSubdiv<S>,
-                "a scheme needs beyond_opensubdiv(): see beyond_opensubdiv() of all.h");
+};
+
+template <class S>
+struct RequireInterpolatingScheme {
+  static_assert(Interpolates<S>,
+                "an interpolating scheme splits triangles by HasRingMasks or quads by HasLineMasks");
 };
 
 }  // namespace subdivd

@@ -65,6 +65,17 @@ for (const seams of [false, true])
     });
   });
 
+// Its plans hold the rows of every level.
+test('the butterfly scheme stays within the limit', async () => {
+  await staysWithin(256 * MiB, async (port) => {
+    const answers = [];
+    for (const [level, body] of [[0, bodies.sheet(100)], [1, bodies.sheet(100)], [2, bodies.sheet(100)], [3, bodies.sheet(60)], [2, bodies.fan(20_000)], [8, bodies.sheet(2)]])
+      answers.push(await post(port, `/v1/refine?level=${level}&subdivisionScheme=butterfly&normals=true&format=glb`, body, { patience: 60_000 }));
+    assert.ok(answers.some(({ status }) => status === 200), 'nothing was refined');
+    return answers;
+  });
+});
+
 test('levels of convergence stay within the limit', () =>
   staysWithin(256 * MiB, async (port) => [
     await post(port, '/v1/curves/measure', bodies.converge(20), { patience: 60_000 }),

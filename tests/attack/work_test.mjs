@@ -23,6 +23,7 @@ const shapes = {
   '200,000 nodes in one chain': { path: '/v1/refine', body: () => bodies.nodesInOneChain() },
   'a comparison of 400,000 faces on one edge': { path: '/v1/verify', body: () => bodies.facesOnOneEdge(), leaving: true },
   'a comparison of a fan of 65,535': { path: '/v1/verify?level=3&limit=true&normals=true', body: () => bodies.fan() },
+  'a fan of 65,535 by the butterfly scheme': { path: '/v1/refine?level=3&subdivisionScheme=butterfly&normals=true', body: () => bodies.fan(), leaving: true },
   '65,000 meshes': { path: '/v1/refine', body: () => bodies.manyMeshes(65_000) },
   'a comparison of 65,000 meshes': { path: '/v1/verify', body: () => bodies.manyMeshes(65_000) },
   '65,000 curves': { path: '/v1/refine', body: () => bodies.manyCurves(65_000) },

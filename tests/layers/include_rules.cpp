@@ -34,7 +34,7 @@ const std::vector<Layer> kLayers = {
   {"core/engine/grid", {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/limit/", "core/engine/net.h", "core/engine/grid/"}, {}},
   {"core/engine/tri_grid", {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/limit/", "core/engine/net.h", "core/engine/grid/", "core/engine/tri_grid/"}, {}},
   {"core/engine/quad_grid", {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/limit/", "core/engine/net.h", "core/engine/grid/", "core/engine/quad_grid/"}, {}},
-  {"core/refine",      {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/engine/", "core/refine/"}, {}},
+  {"core/refine",      {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/engine/", "core/limit/", "core/refine/"}, {}},
   {"core/tessellate",  {"core/base/", "core/mesh/", "core/schemes/", "core/lattice/", "core/refine/", "core/limit/", "core/tessellate/"}, {}},
   {"core/oracle",      {"core/base/", "core/mesh/", "core/lattice/", "core/refine/", "core/curves/", "core/surfaces/", "core/oracle/"}, {"opensubdiv/"}},
   {"proto",            {"core/base/", "core/splines/", "core/curves/", "core/surfaces/", "core/mesh/", "core/schemes/", "core/lattice/", "core/refine/", "core/tessellate/",

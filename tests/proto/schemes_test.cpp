@@ -21,7 +21,8 @@ json spectrum_of(std::string_view name, std::string_view valence, const QueryPar
 
 TEST(Schemes, are_listed_with_what_they_take) {
   const json schemes = json::parse(schemes_json())["schemes"];
-  ASSERT_EQ(schemes.size(), kSchemeCount + 2);  // those of surfaces, and two of curves
+  ASSERT_EQ(schemes.size(), std::tuple_size_v<AllGridSchemes> +
+                                2);  // those of surfaces whose masks see a ring, and two of curves
   EXPECT_EQ(schemes[0]["name"], "loop");
   for (const json& scheme : schemes) {
     EXPECT_FALSE(spectrum_of(scheme["name"].get<std::string>(), scheme["kind"] == "curve" ? "2" : "6")

@@ -191,7 +191,7 @@ void BaseEdges<Scheme, Real>::limit(Index level, const Real* values, const Evalu
 #define SUBDIVD_INSTANTIATE(S)        \
   template class BaseEdges<S, float>; \
   template class BaseEdges<S, double>;
-SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+SUBDIVD_FOR_EACH_GRID_SCHEME(SUBDIVD_INSTANTIATE)
 #undef SUBDIVD_INSTANTIATE
 
 }  // namespace subdivd

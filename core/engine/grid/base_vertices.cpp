@@ -255,7 +255,7 @@ void BaseVertices<Scheme, Real>::limit(Index level, const Real* values, const Ev
 #define SUBDIVD_INSTANTIATE(S)           \
   template class BaseVertices<S, float>; \
   template class BaseVertices<S, double>;
-SUBDIVD_FOR_EACH_SCHEME(SUBDIVD_INSTANTIATE)
+SUBDIVD_FOR_EACH_GRID_SCHEME(SUBDIVD_INSTANTIATE)
 #undef SUBDIVD_INSTANTIATE
 
 }  // namespace subdivd

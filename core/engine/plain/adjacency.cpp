@@ -1,6 +1,7 @@
 #include "core/engine/plain/adjacency.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace subdivd::plain {
@@ -118,5 +119,30 @@ void Adjacency::order_edges(const Pace& pace) {
       std::ranges::copy(edges, vertex_edges_.begin() + vertex_edge_offsets_[v]);
   });
 }
+
+template <class Faces>
+Adjacency adjacency_of(const Topology<Faces>& topology, const Pace& pace) {
+  std::vector<Index> half_edge_edges;
+  pace.copy(topology.half_edge_edges(), half_edge_edges);
+  std::vector<std::array<Index, 2>> ends;
+  pace.copy(topology.edge_vertices(), ends);
+  Polygons polygons;
+  if constexpr (std::is_same_v<Faces, Polygons>) {
+    polygons = topology.faces();
+  } else {
+    std::vector<Index> begins, corners;
+    begins.reserve(Count{topology.face_count()} + 1);
+    pace.for_each(Count{topology.face_count()} + 1,
+                  [&](Count f) { begins.push_back(static_cast<Index>(f * Faces::size)); });
+    pace.copy(topology.corner_vertices(), corners);
+    polygons = Polygons(std::move(begins), std::move(corners), pace);
+  }
+  return Adjacency(topology.vertex_count(), std::move(polygons), std::move(half_edge_edges), std::move(ends),
+                   pace);
+}
+
+template Adjacency adjacency_of(const Topology<Triangles>&, const Pace&);
+template Adjacency adjacency_of(const Topology<Quads>&, const Pace&);
+template Adjacency adjacency_of(const Topology<Polygons>&, const Pace&);
 
 }  // namespace subdivd::plain

@@ -9,6 +9,7 @@
 #include "core/base/index.h"
 #include "core/base/pace.h"
 #include "core/mesh/faces.h"
+#include "core/mesh/topology.h"
 
 namespace subdivd::plain {
 
@@ -71,5 +72,10 @@ class Adjacency {
   std::vector<Index> edge_half_edges_, edge_offsets_ = {0}, vertex_edges_, vertex_edge_offsets_ = {0},
                                        vertex_corners_, vertex_corner_offsets_ = {0};
 };
+
+// Of a control mesh, or a channel: the same faces and edges under the same numbers. Instantiated for Triangles, Quads and
+// Polygons.
+template <class Faces>
+Adjacency adjacency_of(const Topology<Faces>& topology, const Pace& pace);
 
 }  // namespace subdivd::plain

@@ -92,7 +92,7 @@ Level next_level(const Level& channel, Split split, const Level& next_mesh, cons
   return next;
 }
 
-StepRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
+StepRows rows_of(const AnyGridScheme& scheme, CreaseMethod method, const Level& level, bool linear,
                  const Pace& pace) {
   return std::visit([&](const auto& one) { return rows_of(one, method, level, linear, pace); }, scheme);
 }

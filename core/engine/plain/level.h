@@ -44,7 +44,7 @@ Level next_level(const Level& channel, Split split, const Level& next_mesh, cons
 
 // The values of that step's vertices from those of `level`'s. `linear`: midpoints, and means of faces where they
 // get points, whatever the level's own rules.
-StepRows rows_of(const AnyScheme& scheme, CreaseMethod method, const Level& level, bool linear,
+StepRows rows_of(const AnyGridScheme& scheme, CreaseMethod method, const Level& level, bool linear,
                  const Pace& pace = {});
 
 }  // namespace subdivd::plain

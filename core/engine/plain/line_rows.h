@@ -10,6 +10,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <complex>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -149,20 +151,73 @@ class LineRows {
     }
   }
 
-  // A regular vertex inside, among such.
+  bool is_regular(Index v) const {
+    return creases_.kind(v) == PointKind::inside && old_.vertex_corners(v).size() == kRegular;
+  }
+
+  // Around corner h of a vertex v inside, the neighbours of whose face are regular: see TwoRingMask.
+  struct Around {
+    Index end, face, behind, beside, beyond, across;
+  };
+  // kNoIndex where a vertex of the first ring is not regular.
+  Around around(Index h) const {
+    const Index far = old_.mate(h), back = old_.next(old_.next(h));
+    Around found{old_.corner_vertex(far), old_.corner_vertex(back), kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+    if (!is_regular(found.end) || !is_regular(found.face)) return found;
+    const Index at_end = sectors_.of_corner(far), to_v = sectors_.position(far);
+    found.behind = end_of(at_end, (to_v + 2) % 4);
+    found.beside = opposite(at_end, (to_v + 2) % 4);
+    const Index at_face = sectors_.of_corner(back), to_next = sectors_.position(back);
+    found.beyond = opposite(at_face, (to_next + 2) % 4);
+    found.across = end_of(at_face, (to_next + 3) % 4);
+    return found;
+  }
+
+  // A regular vertex inside whose neighbours are; another one where all of the two rings is regular but that.
   bool has_tangents(Index v) const {
-    const auto is_regular = [&](Index u) {
-      return creases_.kind(u) == PointKind::inside && old_.vertex_corners(u).size() == kRegular;
-    };
-    if (linear_ || !is_regular(v)) return false;
-    for (const Index e : old_.vertex_edges(v))
-      if (!is_regular(old_.other_end(e, v))) return false;
+    if (linear_ || creases_.kind(v) != PointKind::inside) return false;
+    if (is_regular(v)) {
+      for (const Index e : old_.vertex_edges(v))
+        if (!is_regular(old_.other_end(e, v))) return false;
+      return true;
+    }
+    const auto corners = old_.vertex_corners(v);
+    if (corners.size() < 3) return false;
+    for (const Index h : corners) {
+      pace_.spend(8);
+      const Around ring = around(h);
+      for (const Index u : {ring.behind, ring.beside, ring.across})
+        if (u == kNoIndex || !is_regular(u)) return false;
+    }
     return true;
+  }
+
+  // Of an extraordinary vertex: cosine, then sine.
+  void add_wave_tangent(Index v, bool sine) {
+    const Index s = sectors_.of_corner(old_.vertex_corners(v)[0]), n = sectors_.size(s);
+    auto found = tangent_masks_.find(n);
+    if (found == tangent_masks_.end()) found = tangent_masks_.emplace(n, scheme_.tangent_mask(n)).first;
+    const TwoRingMask& mask = found->second;
+    for (Index j = 0; j < n; ++j) {
+      pace_.spend(16);
+      const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * j / n);
+      const Around ring = around(sectors_.corners(s)[j]);
+      const auto add = [&](Index u, std::complex<double> weight) {
+        maker_.add(u, sine ? -(weight * turn).imag() : (weight * turn).real());
+      };
+      add(ring.end, mask.end);
+      add(ring.face, mask.face);
+      add(ring.behind, mask.behind);
+      add(ring.beside, mask.beside);
+      add(ring.beyond, mask.beyond);
+      add(ring.across, mask.across);
+    }
   }
 
   // Along the lines: half of l_0 - l_2 less 2 w times half of m_0 - m_2, m being behind l.
   //   [DynGregoryLevin87; core/curves/four_point.h]
   void add_tangent(Index v, Index direction) {
+    if (!is_regular(v)) return add_wave_tangent(v, direction == 1);
     const Index s = sectors_.of_corner(old_.vertex_corners(v)[0]);
     for (const Index side : {0u, 1u}) {
       const Index h = sectors_.corners(s)[direction + 2 * side];
@@ -182,7 +237,8 @@ class LineRows {
   CreaseCurves creases_;
   RowMaker maker_;
   const Pace& pace_;
-  std::vector<Index> sums_;  // the first sum of a sector; kNoIndex: it has none
+  std::vector<Index> sums_;                     // the first sum of a sector; kNoIndex: it has none
+  std::map<Index, TwoRingMask> tangent_masks_;  // by valence; each takes thousands of operations
 };
 
 // The values of the next level's vertices (split.h) from those of `level`'s, whose faces are quads. Vertices are their own
@@ -192,8 +248,10 @@ StepRows step_rows(const Scheme& scheme, const Level& level, bool linear, const 
   return LineRows(scheme, level, linear, pace).step();
 }
 
-// Two rows for every vertex of `level`: derivatives along its lines, an edge being one long, halved by every step; their
-// cross product points outwards. Both are empty but for regular vertices inside among such.
+// Two rows for every vertex of `level`: tangents whose cross product points outwards. Of a regular vertex inside among such:
+// derivatives along its lines, an edge being one long, halved by every step. Of another vertex inside, where its two
+// rings are regular (from the second step on all are): waves, which a step makes shorter by the subdominant eigenvalue.
+// Elsewhere both are empty.
 template <HasLineMasks Scheme>
 StepRows tangent_rows(const Scheme& scheme, const Level& level, bool linear, const Pace& pace = {}) {
   return LineRows(scheme, level, linear, pace).tangents();

@@ -6,6 +6,7 @@
 // vertex inside; a corner has no rule of its own, as a regular vertex has none. A wing that would lie across a
 // crease is where the parallelogram puts it: across (a, o) of the triangle (a, b, o) at a + o - b.
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -47,8 +48,9 @@ class RingRows {
   StepRows tangents() {
     pace_.for_each(old_.vertex_count(), [&](Index v) {
       const bool known = has_tangents(v);
-      for (const double turn : {0.0, std::numbers::pi / 2}) {  // cos(angle - turn): cosine and sine
-        if (known) add_tangent(v, turn);
+      if (known) find_surroundings(v);
+      for (const bool sine : {false, true}) {
+        if (known) add_tangent(sine);
         maker_.end_row();
       }
     });
@@ -199,19 +201,34 @@ class RingRows {
   // An extraordinary ring's edge points lie on its own waves: sum of cos(angle_j) e_j. At a regular vertex, e_j being
   // the ring, f_j behind e_j and g_j between f_j and f_{j+1}, the left eigenvector for 1/2 is
   //   cos(angle_j) (e_j + f_j / 16) - sqrt(3)/6 cos(angle_j + pi/6) g_j.
-  void add_tangent(Index v, double turn) {
+  struct Around {
+    Index end, behind = kNoIndex, between = kNoIndex;
+  };
+  void find_surroundings(Index v) {
     const Index s = sectors_.of_corner(old_.vertex_corners(v)[0]), n = sectors_.size(s);
-    const bool regular = scheme_.is_regular(n);
+    around_.clear();
     for (Index j = 0; j < n; ++j) {
-      const Index h = sectors_.corners(s)[j];
-      const double a = angle(j, n) - turn;
-      maker_.add(end_of(s, j), std::cos(a));
-      if (!regular) continue;
+      Around& here = around_.emplace_back(Around{end_of(s, j)});
+      if (!scheme_.is_regular(n)) continue;
       // From the face (v, e_j, e_{j+1}): g_j across its outer edge; f_j behind, across (e_j, g_j).
-      const Index outer = old_.mate(old_.next(h)), g = old_.prev(outer);
-      const Index f = old_.prev(old_.mate(old_.next(outer)));
-      maker_.add(old_.corner_vertex(g), -std::sqrt(3.0) / 6 * std::cos(a + std::numbers::pi / 6));
-      maker_.add(old_.corner_vertex(f), std::cos(a) / 16);
+      const Index outer = old_.mate(old_.next(sectors_.corners(s)[j]));
+      here.between = old_.corner_vertex(old_.prev(outer));
+      here.behind = old_.corner_vertex(old_.prev(old_.mate(old_.next(outer))));
+    }
+    if (waves_.size() == 2 * Count{n}) return;  // most vertices are regular
+    waves_.clear();
+    for (Index j = 0; j < n; ++j)
+      for (const double turn : {0.0, -std::numbers::pi / 2})
+        waves_.push_back({std::cos(angle(j, n) + turn), std::cos(angle(j, n) + turn + std::numbers::pi / 6)});
+  }
+
+  void add_tangent(bool sine) {
+    for (std::size_t j = 0; j < around_.size(); ++j) {
+      const auto [wave, between] = waves_[2 * j + (sine ? 1 : 0)];
+      maker_.add(around_[j].end, wave);
+      if (around_[j].between == kNoIndex) continue;
+      maker_.add(around_[j].between, -std::sqrt(3.0) / 6 * between);
+      maker_.add(around_[j].behind, wave / 16);
     }
   }
 
@@ -224,6 +241,10 @@ class RingRows {
   RowMaker maker_;
   const Pace& pace_;
   std::vector<Index> sums_;  // the first sum of a sector; kNoIndex: it has none
+  // Of the vertex whose tangents are written: its surroundings, and of every edge cosine and sine of its angle, each with
+  // that a twelfth of a turn on.
+  std::vector<Around> around_;
+  std::vector<std::array<double, 2>> waves_;
 };
 
 // The values of the next level's vertices (split.h) from those of `level`'s. Vertices are their own limits.

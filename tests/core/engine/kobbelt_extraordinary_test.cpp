@@ -102,6 +102,28 @@ TEST(KobbeltByRows, is_regular_around_extraordinary_vertices) {
   }
 }
 
+// Left eigenvectors: what they make of the points is multiplied by the eigenvalue, whatever the points are.
+TEST(KobbeltTangents, shrink_by_the_eigenvalue_at_extraordinary_vertices) {
+  const std::pair<Index, double> eigenvalues[] = {{3, 0.42633}, {5, 0.53794}, {8, 0.58213}, {40, 0}};
+  for (const auto& [n, eigenvalue] : eigenvalues) {
+    ControlMesh mesh = flat_disk(n);
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+      mesh.points[k] += 0.3 * std::sin(static_cast<double>(3 * k));
+    KobbeltSurface surface(mesh);
+    for (int depth = 0; depth < 3; ++depth) surface.refine();  // away from the border
+    const auto tangents = [&] { return surface.applied(tangent_rows(Kobbelt{}, surface.level, false)); };
+    const std::vector<double> before = tangents();
+    surface.refine();
+    const std::vector<double> after = tangents();
+    const double shrunk = after[0] / before[0];
+    if (eigenvalue != 0) {
+      EXPECT_NEAR(shrunk, eigenvalue, 1e-5) << n;
+    }
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(after[k], shrunk * before[k], 1e-13) << n << ' ' << k;
+    EXPECT_GT(before[0] * before[4] - before[1] * before[3], 0) << n;
+  }
+}
+
 // By the formula, for a ring short enough to be written out and for one that is summed.
 TEST(KobbeltByRows, extends_lines_by_the_formula_in_small_rings_and_in_large_ones) {
   for (const Index n : {3u, 5u, 16u, 17u, 50u}) {

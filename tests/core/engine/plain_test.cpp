@@ -17,7 +17,7 @@ namespace {
 
 TEST(PlainRows, sum_to_one_for_every_scheme) {
   for (const auto& [name, mesh] : shapes::all_shapes())
-    for_each_scheme(AllSchemes(), [&]<class S>(const S& scheme) {
+    for_each_scheme(AllGridSchemes(), [&]<class S>(const S& scheme) {
       SCOPED_TRACE(name);
       Level level = base_level(mesh);
       for (int depth = 0; depth < 2; ++depth, level = next_level(level, S::split, CreaseMethod::uniform)) {
@@ -34,7 +34,7 @@ TEST(PlainRows, sum_to_one_for_every_scheme) {
 
 TEST(PlainRows, are_midpoints_when_linear) {
   const Level level = base_level(shapes::icosahedron());
-  const SparseRows rows = written_out(rows_of(AnyScheme(), CreaseMethod::uniform, level, true));
+  const SparseRows rows = written_out(rows_of(AnyGridScheme(), CreaseMethod::uniform, level, true));
   for (Count r = 0; r < rows.row_count(); ++r)
     for (Count k = rows.offsets[r]; k < rows.offsets[r + 1]; ++k)
       EXPECT_EQ(rows.weights[k], r < level.faces.vertex_count() ? 1 : 0.5);
@@ -88,7 +88,7 @@ TEST(PlainLevel, stops_when_the_budget_says_so) {
   Budget budget;
   budget.deadline = Budget::Clock::now();
   const auto rows = stoppable(
-      budget, [&](const Pace& pace) { rows_of(AnyScheme(), CreaseMethod::uniform, level, false, pace); });
+      budget, [&](const Pace& pace) { rows_of(AnyGridScheme(), CreaseMethod::uniform, level, false, pace); });
   ASSERT_FALSE(rows.ok());
   EXPECT_EQ(rows.error().code, ErrorCode::deadline_exceeded);
   EXPECT_FALSE(stoppable(budget, [&](const Pace& pace) {

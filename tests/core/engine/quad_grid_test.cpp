@@ -35,7 +35,7 @@ std::vector<shapes::NamedShape> quad_shapes() {
   return shapes;
 }
 
-Net<Quads> net_of(const ControlMesh& mesh, const AnyScheme& scheme, CreaseMethod method) {
+Net<Quads> net_of(const ControlMesh& mesh, const AnyGridScheme& scheme, CreaseMethod method) {
   auto topology = std::make_shared<const Topology<Quads>>(static_cast<Index>(mesh.point_count()),
                                                           Quads(mesh.face_vertex_indices));
   Sharpness sharpness = control_sharpness(mesh, *topology);
@@ -81,7 +81,7 @@ std::vector<Place> next_places(const std::vector<Place>& places) {
   return next;
 }
 
-void expect_as_plain(const std::string& what, const ControlMesh& mesh, const AnyScheme& scheme,
+void expect_as_plain(const std::string& what, const ControlMesh& mesh, const AnyGridScheme& scheme,
                      CreaseMethod method, Index width) {
   const Net<Quads> net = net_of(mesh, scheme, method);
   std::vector<double> control;
@@ -118,7 +118,7 @@ void expect_as_plain(const std::string& what, const ControlMesh& mesh, const Any
 TEST(QuadGrid, is_the_plain_engine_at_every_point) {
   for (const auto& [name, mesh] : quad_shapes())
     for (const CreaseMethod method : {CreaseMethod::uniform, CreaseMethod::chaikin}) {
-      for_each_scheme(AllSchemes(), [&]<class S>(const S& scheme) {
+      for_each_scheme(AllGridSchemes(), [&]<class S>(const S& scheme) {
         if (S::split == Split::quads) expect_as_plain(name, mesh, scheme, method, 3);
       });
     }
@@ -134,7 +134,7 @@ TEST(QuadGrid, there_are_shapes_to_try_it_on) { EXPECT_GE(quad_shapes().size(), 
 
 // The limit of a point is that of the same point one level on.
 TEST(QuadGrid, limits_and_normals_outlive_a_level) {
-  const auto check = [](const std::string& name, const ControlMesh& mesh, const AnyScheme& scheme,
+  const auto check = [](const std::string& name, const ControlMesh& mesh, const AnyGridScheme& scheme,
                         CreaseMethod method) {
     const Net<Quads> net = net_of(mesh, scheme, method);
     std::vector<std::vector<double>> limits, normals;

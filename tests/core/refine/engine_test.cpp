@@ -91,7 +91,7 @@ void expect_scheme_as_plain(const ControlMesh& mesh, const RefineOptions& option
 // By every scheme of the list that splits triangles.
 template <class Real>
 void expect_as_plain(ControlMesh mesh, const RefineOptions& options, const std::string& what) {
-  for_each_scheme(AllSchemes(), [&]<class S>(const S&) {
+  for_each_scheme(AllGridSchemes(), [&]<class S>(const S&) {
     if (S::split != Split::triangles) return;
     mesh.subdivision_scheme = S::name;
     expect_scheme_as_plain<Real>(mesh, options, what + ' ' + std::string(S::name));

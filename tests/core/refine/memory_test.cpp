@@ -57,6 +57,44 @@ ControlMesh hub(Index faces) {
   return mesh;
 }
 
+// n quads around a point.
+ControlMesh disk(Index n) {
+  ControlMesh mesh = apart(0, 4);
+  mesh.points.assign(3 * (2 * Count{n} + 1), 0);
+  for (Index k = 0; k < 2 * n; ++k) {
+    mesh.points[3 * k + 3] = std::cos(3.14 * k / n);
+    mesh.points[3 * k + 4] = std::sin(3.14 * k / n);
+  }
+  for (Index k = 0; k < n; ++k) {
+    mesh.face_vertex_counts.push_back(4);
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(),
+                                    {0, 2 * k + 1, 2 * k + 2, (2 * k + 2) % (2 * n) + 1});
+  }
+  return mesh;
+}
+
+ControlMesh quad_cube() {
+  ControlMesh mesh;
+  for (Index v = 0; v < 8; ++v)
+    mesh.points.insert(mesh.points.end(), {v & 1 ? 1. : 0, v & 2 ? 1. : 0, v & 4 ? 1. : 0});
+  mesh.face_vertex_counts.assign(6, 4);
+  mesh.face_vertex_indices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+  return mesh;
+}
+
+// So many times, beside one another.
+ControlMesh copies(const ControlMesh& one, Index count) {
+  ControlMesh mesh;
+  for (Index k = 0; k < count; ++k) {
+    const auto first = static_cast<Index>(mesh.point_count());
+    for (std::size_t x = 0; x < one.points.size(); ++x) mesh.points.push_back(one.points[x] + 3 * k);
+    for (const Index v : one.face_vertex_indices) mesh.face_vertex_indices.push_back(first + v);
+    mesh.face_vertex_counts.insert(mesh.face_vertex_counts.end(), one.face_vertex_counts.begin(),
+                                   one.face_vertex_counts.end());
+  }
+  return mesh;
+}
+
 // Two faces of n corners, back to back: every point and edge has them both.
 ControlMesh pillow(Index n) {
   ControlMesh mesh = apart(1, n);
@@ -117,7 +155,21 @@ std::vector<shapes::NamedShape> meshes_of(Index size) {
           {"seams of quads", with_channels(sheet(side, 4))},
           {"rendered quads", with_render_mesh(sheet(side, 4))},
           {"rendered polygons", with_render_mesh(sheet(side, 3))},
-          {"rendered polygons with seams", with_render_mesh(with_channels(sheet(side, 3)))}};
+          {"rendered polygons with seams", with_render_mesh(with_channels(sheet(side, 3)))},
+          {"icosahedra", copies(shapes::icosahedron(), 16 * size)},
+          {"cubes", copies(quad_cube(), 40 * size)},
+          {"disks of sixteen", copies(disk(16), 16 * size)}};
+}
+
+// At most `factor` times what it takes.
+void expect_plan_as_predicted(const ControlMesh& mesh, const PlanOptions& options, const std::string& what,
+                              std::int64_t factor = 5) {
+  const auto predicted = static_cast<std::int64_t>(plan_bytes(mesh, options, {}));
+  const test::Allocations count;
+  const auto plan = Plan::build(mesh, options, {});
+  ASSERT_TRUE(plan.ok()) << what;
+  EXPECT_LE(count.peak_bytes(), predicted + kSlack) << what << ' ' << mesh.subdivision_scheme;
+  EXPECT_GE(factor * count.peak_bytes(), predicted) << what << ' ' << mesh.subdivision_scheme;
 }
 
 TEST(Memory, of_a_plan_is_known_before) {
@@ -125,31 +177,43 @@ TEST(Memory, of_a_plan_is_known_before) {
     for (const char* scheme : {"catmullClark", "bilinear"}) {
       ControlMesh of_scheme = mesh;
       of_scheme.subdivision_scheme = scheme;
-      const auto predicted = static_cast<std::int64_t>(plan_bytes(of_scheme, {}, {}));
-      const test::Allocations count;
-      const auto plan = Plan::build(of_scheme, {.max_level = 3}, {});
-      ASSERT_TRUE(plan.ok()) << name;
-      EXPECT_LE(count.peak_bytes(), predicted + kSlack) << name << ' ' << scheme;
-      EXPECT_GE(5 * count.peak_bytes(), predicted) << name << ' ' << scheme;
+      expect_plan_as_predicted(of_scheme, {.max_level = 3}, name);
+    }
+}
+
+// What these hold grows with the levels. How long rows are depends on what nobody has counted yet.
+TEST(Memory, of_a_plan_by_steps_is_known_before) {
+  for (const char* scheme : {"butterfly", "kobbelt"})
+    for (auto& [name, mesh] : meshes_of(4)) {
+      ControlMesh of_scheme = mesh;
+      of_scheme.subdivision_scheme = scheme;
+      if (!scheme_of(of_scheme, {}, {})) continue;
+      for (const Index level : {0, 1, 2, 3})
+        for (const bool frames : {false, true})
+          expect_plan_as_predicted(
+              of_scheme, {.max_level = level, .frames = frames},
+              name + " to level " + std::to_string(level) + (frames ? " with frames" : ""), 10);
     }
 }
 
 // Arrays of less than 2 MiB: larger ones are rounded up to whole huge pages (core/base/large_blocks.h).
 TEST(Memory, of_refinement_is_known_from_the_plan) {
-  for (const auto& [name, mesh] : meshes_of(4))
-    for (const Index level : {0, 1, 2}) {
-      ControlMesh of_scheme = mesh;
-      of_scheme.subdivision_scheme = "catmullClark";
-      const RefineOptions options = {.level = level, .limit = true, .normals = true};
-      const auto size = predict_size<double>(of_scheme, options);
-      ASSERT_TRUE(size.ok()) << name;
-      const test::Allocations count;
-      const auto refined = refine<double>(of_scheme, options, {});
-      ASSERT_TRUE(refined.ok()) << name;
-      const auto promised = static_cast<std::int64_t>(size->bytes + size->working_bytes);
-      EXPECT_LE(count.peak_bytes(), promised + kSlack) << name << " at level " << level;
-      EXPECT_GE(5 * count.peak_bytes(), promised) << name << " at level " << level;
-    }
+  for (const char* scheme : {"catmullClark", "butterfly", "kobbelt"})
+    for (const auto& [name, mesh] : meshes_of(4))
+      for (const Index level : {0, 1, 2}) {
+        ControlMesh of_scheme = mesh;
+        of_scheme.subdivision_scheme = scheme;
+        if (!scheme_of(of_scheme, {}, {})) continue;
+        const RefineOptions options = {.level = level, .limit = true, .normals = true};
+        const auto size = predict_size<double>(of_scheme, options);
+        ASSERT_TRUE(size.ok()) << name;
+        const test::Allocations count;
+        const auto refined = refine<double>(of_scheme, options, {});
+        ASSERT_TRUE(refined.ok()) << name;
+        const auto promised = static_cast<std::int64_t>(size->bytes + size->working_bytes);
+        EXPECT_LE(count.peak_bytes(), promised + kSlack) << name << " at level " << level << ' ' << scheme;
+        EXPECT_GE(5 * count.peak_bytes(), promised) << name << " at level " << level << ' ' << scheme;
+      }
 }
 
 }  // namespace

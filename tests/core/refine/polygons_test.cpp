@@ -195,9 +195,9 @@ void expect_channel_as_plain(const std::string& name, const ControlMesh& mesh, C
     ASSERT_LT(largest, kTolerance * diagonal(mesh.points))
         << name << " at level " << depth << ", mode "
         << static_cast<int>(mesh.face_varying_linear_interpolation);
-    const AnyScheme scheme = plan->scheme();
+    const auto scheme = as_one_of<AnyGridScheme>(plan->scheme());
     values =
-        plain::apply<double>(plain::rows_of(scheme, method, own, false), std::span<const double>(values), 2);
+        plain::apply<double>(plain::rows_of(*scheme, method, own, false), std::span<const double>(values), 2);
     level = plain::next_level(level, Split::quads, method);
     own = plain::next_level(own, Split::quads, level);
   }

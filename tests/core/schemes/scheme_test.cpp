@@ -18,12 +18,12 @@ struct Like : Loop {
 };
 
 struct Whole : Like<Whole> {};
-static_assert(SubdivisionScheme<Whole> && SubdivisionScheme<Loop>);
+static_assert(RunsOnGrids<Whole> && RunsOnGrids<Loop>);
 
 template <class S>
-constexpr bool kIsNone = !SubdivisionScheme<S>;
+constexpr bool kIsNone = !RunsOnGrids<S>;
 
-TEST(SubdivisionScheme, asks_for_a_value_with_a_name_and_options) {
+TEST(RunsOnGrids, asks_for_a_value_with_a_name_and_options) {
   struct Nameless : Like<Nameless> {
     void name() const;
   };
@@ -40,7 +40,7 @@ TEST(SubdivisionScheme, asks_for_a_value_with_a_name_and_options) {
   EXPECT_TRUE(kIsNone<NeedsAnArgument>);
 }
 
-TEST(SubdivisionScheme, asks_for_split_face_sizes_and_regular_valence) {
+TEST(RunsOnGrids, asks_for_split_face_sizes_and_regular_valence) {
   struct NoSplit : Like<NoSplit> {
     void split() const;
   };
@@ -55,7 +55,7 @@ TEST(SubdivisionScheme, asks_for_split_face_sizes_and_regular_valence) {
   EXPECT_TRUE(kIsNone<NoRegularValence>);
 }
 
-TEST(SubdivisionScheme, asks_for_masks_of_edges_and_vertices) {
+TEST(RunsOnGrids, asks_for_masks_of_edges_and_vertices) {
   struct NoEdges : Like<NoEdges> {
     void edge_mask(const EdgeRing&) const;
   };
@@ -66,7 +66,7 @@ TEST(SubdivisionScheme, asks_for_masks_of_edges_and_vertices) {
   EXPECT_TRUE(kIsNone<NoVertices>);
 }
 
-TEST(SubdivisionScheme, asks_for_limit_masks) {
+TEST(RunsOnGrids, asks_for_limit_masks) {
   struct NoSmooth : Like<NoSmooth> {
     void smooth_limit_mask(Index) const;
   };
@@ -85,7 +85,7 @@ TEST(SubdivisionScheme, asks_for_limit_masks) {
   EXPECT_TRUE(kIsNone<DartThatCannotBeStopped>);
 }
 
-TEST(SubdivisionScheme, asks_for_tangent_masks) {
+TEST(RunsOnGrids, asks_for_tangent_masks) {
   struct NoU : Like<NoU> {
     void smooth_tangent_u() const;
   };
@@ -109,7 +109,7 @@ TEST(SubdivisionScheme, asks_for_tangent_masks) {
 }
 
 // A ring of ten million edges is not left before its mask is done unless the mask polls.
-TEST(SubdivisionScheme, asks_for_tangent_masks_that_can_be_stopped) {
+TEST(RunsOnGrids, asks_for_tangent_masks_that_can_be_stopped) {
   struct U : Like<U> {
     RingMask smooth_tangent_u(Index) const;
   };
@@ -128,7 +128,7 @@ TEST(SubdivisionScheme, asks_for_tangent_masks_that_can_be_stopped) {
   EXPECT_TRUE(kIsNone<Across>);
 }
 
-TEST(SubdivisionScheme, asks_whether_opensubdiv_knows_it) {
+TEST(RunsOnGrids, asks_whether_opensubdiv_knows_it) {
   struct Silent : Like<Silent> {
     void beyond_opensubdiv() const;
   };

@@ -33,7 +33,7 @@ class MaskProperties : public ::testing::Test {
     return all;
   }
 };
-TYPED_TEST_SUITE(MaskProperties, AsTypes<AllSchemes>::type);
+TYPED_TEST_SUITE(MaskProperties, AsTypes<AllGridSchemes>::type);
 
 // Room for the rounding of a sum of n weights.
 double rounding(Index n) { return 4e-15 + 2e-16 * n; }
