@@ -99,6 +99,7 @@ Count rearranging_bytes(const ControlMesh& mesh, Count faces) {
     if (primvar.interpolation == Interpolation::face_varying)
       numbers += corners + mesh.face_vertex_indices.size();
   }
+  if (!mesh.render_meshes.empty()) numbers += corners + mesh.face_vertex_indices.size();
   return 2 * numbers * sizeof(Index);
 }
 

@@ -241,6 +241,26 @@ Result<void> check_larger_faces(const ControlMesh& mesh, Count corners, const Bu
                {"primvars"}};
 }
 
+// Render meshes index the same corners. `offsets`: first corner of every old face.
+void cut_render_faces(ControlMesh& mesh, std::span<const Count> offsets, const Triangulation& made,
+                      const Pace& pace) {
+  const auto first_triangle = [&](Index face) {
+    return 3 * static_cast<Count>(std::ranges::lower_bound(made.faces, face) - made.faces.begin());
+  };
+  for (RenderMesh& render : mesh.render_meshes) {
+    const Count begin = first_triangle(render.face_begin), end = first_triangle(render.face_end);
+    std::vector<Index> indices;
+    indices.reserve(end - begin);
+    pace.spend(64);
+    pace.for_each(end - begin, [&](Count k) {
+      indices.push_back(render.indices[made.corners[begin + k] - offsets[render.face_begin]]);
+    });
+    render.indices = std::move(indices);
+    render.face_begin = static_cast<Index>(begin / 3);
+    render.face_end = static_cast<Index>(end / 3);
+  }
+}
+
 }  // namespace
 
 Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget) {
@@ -263,6 +283,7 @@ Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget) {
       pace.for_each(size - 2, [&](Count) { made.faces.push_back(f); });
       pace.for_each(3 * (size - 2), [&](Count k) { made.corners[begin + k] += static_cast<Index>(first); });
     }
+    cut_render_faces(mesh, offsets, made, pace);
     rearrange(mesh, made.faces, made.corners, pace);
     mesh.face_vertex_counts.clear();
     return made;

@@ -26,9 +26,8 @@ struct Triangulation {
 
 // Splits every face of k > 3 vertices into k - 2 triangles: the fan (0,1,2), (0,2,3), ... from its first
 // vertex where that does not fold the face over, otherwise by clipping ears (core/mesh/ear_clipping.h);
-// uniform values, face-varying indices and holes follow. Refuses faces of fewer than 3 vertices. Render
-// meshes do not follow: of a mesh that has some, all faces are triangles. Faces of k vertices of which r are not convex take
-// k times r steps.
+// uniform values, face-varying indices, holes and render meshes follow. Refuses faces of fewer than 3 vertices. Faces
+// of k vertices of which r are not convex take k times r steps.
 Result<Triangulation> triangulate(ControlMesh& mesh, const Budget& budget = {});
 
 // Bytes that it needs to cut a face of `corners` corners, beyond those of the arrays it makes.

@@ -8,9 +8,9 @@ namespace {
 
 constexpr auto kKnown = std::to_array<std::string_view>(
     {"EXT_lights_image_based", "EXT_mesh_gpu_instancing", "EXT_texture_avif", "EXT_texture_webp",
-     "KHR_animation_pointer", "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_node_visibility",
-     "KHR_texture_basisu", "KHR_texture_transform", "KHR_xmp", "KHR_xmp_json_ld", "MSFT_lod",
-     "MSFT_texture_dds"});
+     "FB_ngon_encoding", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_mesh_quantization",
+     "KHR_node_visibility", "KHR_texture_basisu", "KHR_texture_transform", "KHR_xmp", "KHR_xmp_json_ld",
+     "MSFT_lod", "MSFT_texture_dds"});
 
 bool is_empty(const Json& value) {
   if (const Json::Object* members = value.object()) return members->empty();

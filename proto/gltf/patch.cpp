@@ -4,6 +4,7 @@
 
 #include "proto/gltf/deformation.h"
 #include "proto/gltf/extensions.h"
+#include "proto/gltf/ngons.h"
 #include "proto/gltf/prune.h"
 
 namespace subdivd::proto::gltf {
@@ -43,10 +44,22 @@ bool drop_draco(Json& primitive) {
 }
 
 void forget_extension(Json& document, std::string_view name) {
-  Json* used = document.find("extensionsUsed");
-  if (used == nullptr) return;
-  std::erase_if(*used->array(), [&](const Json& json) { return *json.string() == name; });
-  if (used->array()->empty()) document.erase("extensionsUsed");
+  for (const std::string_view list : {"extensionsUsed", "extensionsRequired"}) {
+    Json* names = document.find(list);
+    if (names == nullptr) continue;
+    std::erase_if(*names->array(), [&](const Json& json) { return *json.string() == name; });
+    if (names->array()->empty()) document.erase(list);
+  }
+}
+
+// Whether a primitive that stays as it is has it.
+Result<bool> has_ngons(const Json::Array& meshes, Work& work) {
+  for (const Json& mesh : meshes)
+    for (const Json& primitive : *mesh.find("primitives")->array()) {
+      if (auto stop = work.spend(4)) return *std::move(stop);
+      if (ngon_encoding_of(primitive) != nullptr) return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -55,7 +68,7 @@ Result<void> patch(Source& source, const Buffers& buffers, bool only_append, War
   const auto before = collect_references(source.document, work);
   if (!before) return before.error();
   Json::Array& meshes = *source.document.find("meshes")->array();
-  bool had_draco = false;
+  bool had_draco = false, had_ngons = false;
   std::vector<bool> refined_meshes(meshes.size());
   for (const TrianglesSlot& slot : source.triangles) {
     if (auto stop = work.spend(64)) return *std::move(stop);
@@ -64,6 +77,7 @@ Result<void> patch(Source& source, const Buffers& buffers, bool only_append, War
     if (primitive.find("indices") != nullptr) primitive.set("indices", Json());
     set_mode(primitive, kTriangles);
     had_draco |= drop_draco(primitive);
+    had_ngons |= drop_ngon_encoding(primitive);
     refined_meshes[slot.mesh] = true;
   }
   for (const CurvesSlot& slot : source.curves) {
@@ -75,9 +89,15 @@ Result<void> patch(Source& source, const Buffers& buffers, bool only_append, War
     } else {
       primitive.erase("indices");
     }
+    had_ngons |= drop_ngon_encoding(primitive);
     refined_meshes[slot.mesh] = true;
   }
   if (had_draco) forget_extension(source.document, "KHR_draco_mesh_compression");
+  if (had_ngons) {
+    const auto others = has_ngons(meshes, work);
+    if (!others) return others.error();
+    if (!*others) forget_extension(source.document, kNgonEncoding);
+  }
   if (auto dropped = drop_deformation(source.document, refined_meshes, warnings, work); !dropped)
     return dropped;
   if (!only_append) {

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <type_traits>
 #include <utility>
 
 #include "proto/gltf/caps.h"
+#include "proto/gltf/ngons.h"
+#include "proto/gltf/tuples.h"
 #include "proto/gltf/weld.h"
 
 namespace subdivd::proto::gltf {
@@ -15,41 +16,11 @@ namespace {
 struct Part {
   Index primitive = 0;
   PrimitiveData data;
+  bool has_ngons = false;  // its triangles are pieces of polygons
   Index first_vertex = 0;  // of the mesh's vertices
   Count next_channel = 0;  // of data.channels, while the mesh's channels are read by name
+  Index face_end = 0;      // of the mesh's faces, those of this part end here
 };
-
-// Leaves the values that represent others, in order.
-Result<void> keep_first(std::vector<double>& values, Count width, const Welded& weld, Work& work) {
-  if (weld.all_differ()) return {};
-  const auto move_down = [&](auto w) -> Result<void> {
-    for (Count id = 0; id < weld.first.size(); ++id) {
-      if (auto stop = work.spend(1)) return *std::move(stop);
-      for (Count k = 0; k < w; ++k) values[id * w + k] = values[weld.first[id] * w + k];
-    }
-    return {};
-  };
-  const auto moved = width == 3 ? move_down(std::integral_constant<Count, 3>{}) : move_down(width);
-  if (!moved) return moved;
-  values.resize(weld.first.size() * width);
-  return {};
-}
-
-// Writes tuples of `from` numbers at the end of `values` as tuples of `to`, the last of which is `padding`
-// and the others behind the given ones 0.
-Result<void> widen_last(std::vector<double>& values, Count count, Count from, Count to, double padding,
-                        Work& work) {
-  if (from == to) return {};
-  const Count begin = values.size() - count * from;
-  values.resize(begin + count * to);
-  for (Count i = count; i-- > 0;) {
-    if (auto stop = work.spend(1)) return *std::move(stop);
-    double* const wide = &values[begin + i * to];
-    const double* const narrow = &values[begin + i * from];
-    for (Count k = to; k-- > 0;) wide[k] = k < from ? narrow[k] : k + 1 == to ? padding : 0.0;
-  }
-  return {};
-}
 
 class MeshReader {
  public:
@@ -73,6 +44,7 @@ class MeshReader {
   Result<void> read_part(Index primitive, const Json& json, const Place& place);
   Result<void> read_positions();
   Result<Welded> weld_points(const std::vector<double>& positions);
+  Result<void> join_faces();
   Result<void> connect();
   Result<std::vector<Index>> corner_ids(const Welded& weld) const;
   Result<void> check_channels() const;
@@ -125,7 +97,8 @@ Result<void> MeshReader::read_part(Index primitive, const Json& json, const Plac
   if (vertex_count_ > kMaxIndexCount)
     return over_limit(place_, vertex_count_, kMaxIndexCount,
                       "the mesh has more vertices than indices of 32 bits can number");
-  parts_.push_back({primitive, *std::move(data), first_vertex, 0});
+  const bool has_ngons = mode_of(json) == kTriangles && ngon_encoding_of(json) != nullptr;
+  parts_.push_back({primitive, *std::move(data), has_ngons, first_vertex, 0, 0});
   return {};
 }
 
@@ -184,6 +157,34 @@ Result<std::vector<Index>> MeshReader::corner_ids(const Welded& weld) const {
   return ids;
 }
 
+// Makes polygons of the triangles of parts that say so. How many corners faces have is told where any has more than 3.
+Result<void> MeshReader::join_faces() {
+  Count triangles = 0;
+  for (Part& part : parts_) {
+    triangles += part.data.corners.size() / 3;
+    part.face_end = static_cast<Index>(triangles);
+  }
+  if (std::ranges::none_of(parts_, &Part::has_ngons)) return {};
+  if (auto kept = work_.keep(triangles * sizeof(Index) + kBlockBytes); !kept) return kept;
+  const auto held = work_.hold(points_.first.size() * sizeof(Index) + kBlockBytes);
+  if (!held) return held.error();
+  std::vector<Index> faces_of, sizes;
+  if (auto grown = grow(faces_of, points_.first.size(), work_, kNoIndex); !grown) return grown;
+  sizes.reserve(triangles);
+  for (Part& part : parts_) {
+    if (part.has_ngons) {
+      const auto points = std::span(points_.id).subspan(part.first_vertex, part.data.vertex_count);
+      if (auto joined = join_triangles(part.data.corners, points, faces_of, sizes, work_); !joined)
+        return joined;
+    } else if (auto grown = grow(sizes, sizes.size() + part.data.corners.size() / 3, work_, 3); !grown) {
+      return grown;
+    }
+    part.face_end = static_cast<Index>(sizes.size());
+  }
+  if (sizes.size() < triangles) result_.mesh.face_vertex_counts = std::move(sizes);
+  return {};
+}
+
 // Points, faces and render meshes.
 Result<void> MeshReader::connect() {
   ControlMesh& mesh = result_.mesh;
@@ -192,12 +193,12 @@ Result<void> MeshReader::connect() {
   if (!points) return points.error();
   points_ = *std::move(points);
   if (auto moved = keep_first(mesh.points, 3, points_, work_); !moved) return moved;
+  if (auto joined = join_faces(); !joined) return joined;
   Index face = 0;
   mesh.render_meshes.reserve(parts_.size());
   for (Part& part : parts_) {
-    const auto faces = static_cast<Index>(part.data.corners.size() / 3);
-    mesh.render_meshes.push_back({face, face + faces, part.data.vertex_count, std::move(part.data.corners)});
-    face += faces;
+    mesh.render_meshes.push_back({face, part.face_end, part.data.vertex_count, std::move(part.data.corners)});
+    face = part.face_end;
   }
   auto ids = corner_ids(points_);
   if (!ids) return ids.error();
@@ -287,10 +288,14 @@ Result<ReadMesh> MeshReader::read() {
   result_.mesh.name = short_name(json);
   const Json::Array& primitives = *json.find("primitives")->array();
   const Place all = place_.at("primitives");
-  const auto triangles =
-      static_cast<Count>(std::count_if(primitives.begin(), primitives.end(), [](const Json& primitive) {
-        return mode_of(primitive) >= kTriangles;
-      }));
+  Count triangles = 0;
+  for (Index i = 0; i < primitives.size(); ++i) {
+    if (auto stop = work_.spend(8)) return *std::move(stop);
+    triangles += mode_of(primitives[i]) >= kTriangles;
+    if (mode_of(primitives[i]) != kTriangles && ngon_encoding_of(primitives[i]) != nullptr)
+      asset_.warnings.add("FB_ngon_encoding tells of lists of triangles alone and is ignored elsewhere",
+                          all.at(i));
+  }
   if (triangles == 0) return std::move(result_);
   const auto held = work_.hold(triangles * sizeof(Part) + kBlockBytes);
   if (!held) return held.error();

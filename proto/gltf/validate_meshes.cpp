@@ -4,6 +4,7 @@
 
 #include "proto/gltf/caps.h"
 #include "proto/gltf/fields.h"
+#include "proto/gltf/ngons.h"
 #include "proto/gltf/semantics.h"
 
 namespace subdivd::proto::gltf {
@@ -140,6 +141,10 @@ Result<void> Checker::primitive(const Json& json, const Place& place) {
   const auto mode_number = optional_integer(json, "mode", place, {kPoints, kTriangleFan});
   if (!mode_number) return mode_number.error();
   const Count mode = mode_number->value_or(kTriangles);
+  if (const Json* ngons = ngon_encoding_of(json)) {
+    const Place extensions = place.at("extensions");
+    if (auto is = expect_object(*ngons, extensions.at(kNgonEncoding)); !is) return is.error();
+  }
   const auto vertices = attributes(json, place);
   if (!vertices) return vertices.error();
   const auto index_count = indices(json, place);

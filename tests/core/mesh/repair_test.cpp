@@ -121,6 +121,24 @@ TEST(Triangulate, does_not_fold_a_concave_face_and_takes_everything_along) {
   EXPECT_TRUE(mesh.check().ok());
 }
 
+TEST(Triangulate, cuts_render_meshes_as_it_cuts_the_faces) {
+  ControlMesh mesh;
+  mesh.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 3, 1, 0, 0, 4, 0};
+  mesh.face_vertex_counts = {4, 3, 4};
+  mesh.face_vertex_indices = {0, 1, 2, 3, 0, 3, 4, 3, 2, 1, 0};
+  mesh.render_meshes = {{0, 0, 1, {}}, {0, 2, 6, {5, 4, 3, 2, 0, 1, 2}}, {2, 3, 4, {0, 1, 2, 3}}};
+  ASSERT_TRUE(triangulate(mesh).ok());
+  EXPECT_EQ(mesh.face_vertex_indices, (std::vector<Index>{0, 1, 3, 1, 2, 3, 0, 3, 4, 3, 2, 1, 3, 1, 0}));
+  EXPECT_EQ(mesh.render_meshes[0].face_end, 0u);
+  EXPECT_EQ(mesh.render_meshes[1].face_begin, 0u);
+  EXPECT_EQ(mesh.render_meshes[1].face_end, 3u);
+  EXPECT_EQ(mesh.render_meshes[1].indices, (std::vector<Index>{5, 4, 2, 4, 3, 2, 0, 1, 2}));
+  EXPECT_EQ(mesh.render_meshes[2].face_begin, 3u);
+  EXPECT_EQ(mesh.render_meshes[2].face_end, 5u);
+  EXPECT_EQ(mesh.render_meshes[2].indices, (std::vector<Index>{0, 1, 2, 0, 2, 3}));
+  EXPECT_TRUE(mesh.check().ok());
+}
+
 TEST(Triangulate, leaves_it_to_check_to_say_that_a_point_does_not_exist_or_is_not_finite) {
   ControlMesh mesh;
   mesh.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 3, 1, 0};

@@ -235,6 +235,18 @@ std::string accessors_without_data(std::size_t size) {
                positions(3));
 }
 
+std::string one_face_of_many_triangles(std::size_t size) {
+  std::string bin = positions(size + 2);
+  const std::size_t begin = bin.size();
+  for (std::size_t i = 0; i < size; ++i)
+    for (const std::size_t corner : {std::size_t{0}, i + 1, i + 2})
+      append(bin, static_cast<std::uint32_t>(corner));
+  return asset(
+      R"({"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{"FB_ngon_encoding":{}}}]})",
+      accessor(0, 5126, size + 2, "VEC3") + ',' + accessor(1, 5125, 3 * size, "SCALAR"),
+      view(0, begin) + ',' + view(begin, bin.size() - begin), bin);
+}
+
 }  // namespace
 
 const std::vector<Attack>& attacks() {
@@ -260,6 +272,7 @@ const std::vector<Attack>& attacks() {
       {"keys_with_one_long_beginning", Format::glb, keys_with_one_long_beginning, 4000},
       {"embedded_buffers", Format::gltf, embedded_buffers, 100000},
       {"accessors_without_data", Format::glb, accessors_without_data, 1000},
+      {"one_face_of_many_triangles", Format::glb, one_face_of_many_triangles, 100000},
   };
   return all;
 }

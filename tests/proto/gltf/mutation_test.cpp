@@ -23,6 +23,8 @@ std::vector<std::string> seeds() {
   document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
       rich.values(std::vector<std::uint8_t>(24, 100), 4, true);
   rich.primitive({{"POSITION", 0}}, -1, 3);
+  rich.primitive({{"POSITION", 0}}, rich.values<std::uint8_t>({0, 1, 2, 0, 2, 3, 1, 4, 5}, 1));
+  document["meshes"].back()["primitives"].back()["extensions"]["FB_ngon_encoding"] = OrderedJson::object();
   document["nodes"].push_back({{"children", {0}}});
   document["animations"] = {
       {{"samplers", {{{"input", 2}, {"output", 1}}}},
