@@ -109,6 +109,8 @@ std::vector<OptionSpec> options_of_kinds() { return {
     "How the sharpness of semi-sharp creases decays from level to level."),
   option<&Options::faces>(kWord, "faces", kFaces, "", "surfaces",
     "What is drawn between the refined points of a B-spline surface. Default: quads in JSON answers, triangles in glTF answers, which know nothing else."),
+  option<&Options::ngons>(kBoolean, "ngons", {}, "false", "meshes, glTF",
+    "glTF answers only: mark which triangles make a quad or a larger face, by the extension FB_ngon_encoding."),
   option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, surfaces, glTF",
     "Floating-point type of the computation and of the numbers in a JSON answer. Default: double for JSON answers, single for glTF answers."),
   option<&Options::weld>(kWord, "weld", kWeld, "exact", "glTF",
@@ -341,6 +343,13 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
                  .where = blame("level", query),
                  .predicted = options.level,
                  .allowed = limits.max_level};
+  const Format format = answer_format(request);
+  if (options.ngons && format != Format::glb && format != Format::gltf)
+    return Error{
+        ErrorCode::unsupported,
+        "ngons marks larger faces in glTF answers, which hold nothing but triangles; this answer has them as "
+        "they are: leave it out or take format glb or gltf",
+        blame("ngons", query)};
   if (!options.verify) return {};
   return stoppable(budget, [&](const Pace& pace) -> Result<void> {
     for (const ControlMesh& mesh : request.meshes) {

@@ -46,6 +46,7 @@ struct Options {
   bool normals = false;
   bool verify = false;
   bool triangulate = false;
+  bool ngons = false;       // glTF answers: mark the triangles that make quads and larger faces
   AllSchemes schemes = {};  // the options of every scheme that meshes may name
   CreaseMethod crease_method = CreaseMethod::uniform;
   Weld weld = Weld::exact;

@@ -98,24 +98,42 @@ Count TriangleStream::next_of_grids(const Writer& writer, std::span<Index> out) 
   return written;
 }
 
-Count TriangleStream::next_of_polygons(std::span<Index> out) {
-  const auto corners = lattice_->base_corners();
-  const Connectivity<Polygons>& polygons = *lattice_->shared_polygons();
+// Faces that are no grids, from the corner on that tells them apart.
+template <class Faces>
+Count TriangleStream::next_of_faces(const Connectivity<Faces>& faces, std::span<Index> out) {
+  const auto corners = faces.corner_vertices();
   Count written = 0;
   for (; face_ < holes_.size(); ++face_, row_ = 0) {
     if (holes_[face_] != 0) continue;
-    const Index begin = polygons.faces().begin(face_);
-    for (; row_ < triangles_of(lattice_->base_face_size(face_)); ++row_) {
+    const Index begin = faces.faces().begin(face_), size = faces.faces().begin(face_ + 1) - begin;
+    if (row_ == 0) start_ = told_apart_ && corners[begin] == last_start_ ? 1 : 0;
+    const auto vertex = [&](Count k) { return corners[begin + (start_ + k) % size]; };
+    for (; row_ < triangles_of(size); ++row_) {
       if (out.size() - written < 3) return written;
-      for (const Count corner : {Count{0}, row_ + 1, row_ + 2}) out[written++] = corners[begin + corner];
+      for (const Count corner : {Count{0}, row_ + 1, row_ + 2}) out[written++] = vertex(corner);
     }
+    last_start_ = vertex(0);
   }
   return written;
 }
 
+// A grid of more than one quad ends with one that begins inside it, and the next begins at a corner; the quads of a
+// row, and those that begin rows, begin at different points. So only grids of one quad can have neighbours that begin
+// at one vertex, and polygons.
+bool TriangleStream::cuts_whole_faces() const {
+  return lattice_->face_size(level_) == 0 || (told_apart_ && level_ == lattice_->first_level());
+}
+
+bool TriangleStream::tell_faces_apart() {
+  told_apart_ = index_count_ > 0 && !lattice_->has_triangles();
+  return told_apart_;
+}
+
 Count TriangleStream::next(std::span<Index> out) {
   if (holes_.empty()) return 0;
-  if (lattice_->face_size(level_) == 0) return next_of_polygons(out);
+  if (cuts_whole_faces())
+    return lattice_->face_size(level_) == 0 ? next_of_faces(*lattice_->shared_polygons(), out)
+                                            : next_of_faces(lattice_->quads(), out);
   const Index depth = level_ - lattice_->first_level();
   if (lattice_->has_triangles())
     return next_of_grids(TriangleWriter(lattice_->triangles(), depth, kUnlimited), out);
@@ -131,10 +149,14 @@ Result<Buffer<Index>> TriangleStream::all(Index threads, const Budget& budget) c
       return std::move(done).error();
     return indices;
   }
-  if (lattice_->face_size(level_) == 0) {
+  if (cuts_whole_faces()) {
     constexpr Count kPiece = 3 * 4096;
     return stoppable(budget, [&](const Pace& pace) -> Result<Buffer<Index>> {
-      TriangleStream whole(lattice_, level_, holes_, pace);
+      TriangleStream whole;
+      whole.lattice_ = lattice_;
+      whole.level_ = level_;
+      whole.told_apart_ = told_apart_;
+      pace.copy(holes_, whole.holes_);
       for (Count written = 0; written < indices.size();) {
         pace.spend(kPiece / 4);
         written +=

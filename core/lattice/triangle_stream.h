@@ -15,14 +15,18 @@
 namespace subdivd {
 
 // Refined faces follow one another as in Lattice::write_faces. A quad (a, b, c, d) is cut into (a, b, c) (a, c, d),
-// a polygon likewise from its first corner on; neighbours in this order begin at different vertices, as
-// FB_ngon_encoding asks for.
+// a polygon likewise from its first corner on.
 class TriangleStream {
  public:
   TriangleStream() = default;  // of no faces
   // `holes`: one flag per face of the lattice, those with 0 are written.
   TriangleStream(std::shared_ptr<const Lattice> lattice, Index level, std::span<const unsigned char> holes,
                  const Pace& pace = {});
+
+  // Asked for before the first next(): of two neighbours in the order of faces the second does not begin at the
+  // vertex that the first begins at, so that faces can be told apart by the first corners of their triangles. A face
+  // that would is cut from its second corner on. False, and nothing changes: all faces are triangles, or there is none.
+  bool tell_faces_apart();
 
   Count index_count() const { return index_count_; }  // of all triangles
   Count least_room() const;                           // that next() needs, in indices
@@ -36,7 +40,9 @@ class TriangleStream {
  private:
   template <class Writer>
   Count next_of_grids(const Writer& writer, std::span<Index> out);
-  Count next_of_polygons(std::span<Index> out);
+  template <class Faces>
+  Count next_of_faces(const Connectivity<Faces>& faces, std::span<Index> out);
+  bool cuts_whole_faces() const;
 
   std::shared_ptr<const Lattice> lattice_;
   Index level_ = 0;
@@ -44,7 +50,11 @@ class TriangleStream {
       holes_;  // of the faces that the grids start from; of polygons where they are the faces
   Count index_count_ = 0, least_room_ = 0;
   Index face_ = 0;
-  Count row_ = 0;  // of the face, where rows are written one by one; of a polygon, the triangle
+  Count row_ =
+      0;  // of the face, where rows are written one by one; of a face that is cut as a whole, the triangle
+  bool told_apart_ = false;
+  Index start_ = 0;              // the corner that the current face is cut from
+  Index last_start_ = kNoIndex;  // the vertex that the face before it began at
 };
 
 }  // namespace subdivd

@@ -180,6 +180,7 @@ Result<Source> make_source(const RefineRequest& request, std::vector<std::string
     slot.control_mesh = i;
     slot.render_mesh = mesh.render_meshes.empty() ? kNoIndex : 0;
     slot.normals = request.options.normals;
+    slot.ngons = request.options.ngons;
     slot.attributes = attributes_of(mesh, &warnings);
     source.triangles.push_back(std::move(slot));
   }

@@ -75,6 +75,13 @@ Json& Output::primitive(Index mesh, Index primitive) {
   return (*(*meshes_)[mesh].find("primitives")->array())[primitive];
 }
 
+void Output::use_extension(std::string_view name) {
+  Json::Array& used = document_.array_member("extensionsUsed");
+  if (!used.empty() && used.back().string() != nullptr && *used.back().string() == name) return;
+  std::erase_if(used, [&](const Json& json) { return json.string() != nullptr && *json.string() == name; });
+  used.emplace_back(std::string(name));
+}
+
 Index Output::add_accessor(Chunk data, Count count, Count component, std::string_view type, Target target,
                            Json bounds) {
   Json view;

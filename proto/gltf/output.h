@@ -34,6 +34,9 @@ class Output {
   // The same; where they are many, they are made while the answer is sent.
   Result<Index> add_indices(TriangleStream triangles, Index vertex_count);
 
+  // Names it among those in use.
+  void use_extension(std::string_view name);
+
   Json& asset() { return *document_.find("asset"); }
   // `source` owns `foreign` and stays alive as long as the answer.
   Result<Payload> finish(const std::shared_ptr<const void>& source,

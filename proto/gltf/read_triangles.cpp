@@ -273,8 +273,9 @@ Result<void> MeshReader::add_channel(std::string_view name, Index width) {
 void MeshReader::add_slots() {
   result_.slots.reserve(parts_.size());
   for (Index i = 0; i < parts_.size(); ++i) {
-    TrianglesSlot slot{gltf_mesh_, parts_[i].primitive, 0, i, parts_[i].data.has_normals || options_.normals,
-                       {}};
+    TrianglesSlot slot{
+        gltf_mesh_, parts_[i].primitive, 0, i, parts_[i].data.has_normals || options_.normals, options_.ngons,
+        {}};
     slot.attributes.reserve(parts_[i].data.channels.size());
     for (const PrimitiveChannel& channel : parts_[i].data.channels)
       slot.attributes.push_back(

@@ -26,6 +26,7 @@ struct TrianglesSlot {
   Index control_mesh = 0;         // in the request; of surfaces: which of them
   Index render_mesh = kNoIndex;   // of the control mesh; kNoIndex: every point is a vertex
   bool normals = false;
+  bool ngons = false;  // tell which triangles make a larger face (ngons.h)
   std::vector<AttributeSlot> attributes;
 };
 

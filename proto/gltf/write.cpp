@@ -17,6 +17,9 @@ namespace {
 // it (its chunk), and what a primitive takes.
 constexpr Count kArrayBytes = 2048, kSlotBytes = 512;
 
+// Of the mark on a primitive of faces larger than triangles: its text at most, and what it takes in the tree.
+constexpr Count kNgonsTextBytes = 64, kNgonsBytes = 512;
+
 // The envelope under asset.extras.subdivd, with the warnings that came up while writing. Extras that are no
 // object move to a member of their own.
 Result<void> attach(Json& asset, std::string_view envelope, const std::vector<std::string>& warnings,
@@ -178,6 +181,7 @@ Result<Count> predicted_bytes(const RefineRequest& request, const std::vector<Re
     if (auto stop = work.spend(32)) return *std::move(stop);
     bin += triangles_bytes(slot, request.meshes[slot.control_mesh], meshes[slot.control_mesh]);
     add_attributes(slot.attributes, 3);
+    if (slot.ngons) json += kNgonsTextBytes;
   }
   for (const CurvesSlot& slot : source.curves) {
     const auto bytes = curves_bytes(slot, request.curves, request.options.level, work);
@@ -210,9 +214,14 @@ Result<Payload> write(const RefineRequest& request, AnyAnswer answer, Format for
   if (!bytes) return bytes.error();
   Count slots = source->triangles.size() + source->curves.size() + source->surfaces.size();
   Count arrays = 2 * slots;
-  for (const TrianglesSlot& slot : source->triangles) arrays += slot.attributes.size() + 1;
+  Count marks = 0;
+  for (const TrianglesSlot& slot : source->triangles) {
+    arrays += slot.attributes.size() + 1;
+    marks += slot.ngons;
+  }
   for (const CurvesSlot& slot : source->curves) arrays += slot.attributes.size();
-  if (auto kept = work.keep(*bytes + arrays * kArrayBytes + slots * kSlotBytes); !kept) return kept.error();
+  if (auto kept = work.keep(*bytes + arrays * kArrayBytes + slots * kSlotBytes + marks * kNgonsBytes); !kept)
+    return kept.error();
   auto document = source->document.copy(work);
   if (!document) return document.error();
   Output output(*std::move(document), Chunk{source, source->data}, format, work);

@@ -9,6 +9,7 @@
 
 #include "core/base/buffer.h"
 #include "core/mesh/scan.h"
+#include "proto/gltf/ngons.h"
 #include "proto/suggest.h"
 
 namespace subdivd::proto::gltf {
@@ -52,6 +53,7 @@ class TrianglesWriter {
   Index vertex_count_ = 0;
   Buffer<Index> indices_;                // once they are written
   TriangleStream triangles_;             // until then
+  bool has_ngons_ = false;               // the triangles tell larger faces apart
   RefinedRenderMesh* render_ = nullptr;  // null: vertices are the refined mesh's own
   Json attributes_;
 };
@@ -78,6 +80,7 @@ Result<void> TrianglesWriter<Real>::find_vertices() {
   }
   render_ = &mesh_.render_meshes[slot_.render_mesh];
   triangles_ = std::move(render_->triangles);
+  if (slot_.ngons) has_ngons_ = triangles_.tell_faces_apart();
   vertex_count_ = render_->vertex_count;
   if (!render_->source_vertices.empty()) {
     const auto used = stand_in(render_->source_vertices, work_);
@@ -246,6 +249,10 @@ Result<void> TrianglesWriter<Real>::write() {
   if (!accessor) return accessor.error();
   primitive.set("attributes", std::move(attributes_));
   primitive.set("indices", Json::number(Count{*accessor}));
+  if (has_ngons_) {
+    set_ngon_encoding(primitive);
+    output_.use_extension(kNgonEncoding);
+  }
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -37,8 +38,10 @@ std::vector<Index> in_pieces(TriangleStream stream, Count room) {
   return all;
 }
 
-void expect_whole(const ControlMesh& mesh, Index level, std::span<const unsigned char> holes) {
-  const TriangleStream stream(lattice_of(mesh), level, holes);
+void expect_whole(const ControlMesh& mesh, Index level, std::span<const unsigned char> holes,
+                  bool apart = false) {
+  TriangleStream stream(lattice_of(mesh), level, holes);
+  if (apart) stream.tell_faces_apart();
   const Buffer<Index> whole = *stream.all(1, {});
   const std::vector<Index> expected(whole.begin(), whole.end());
   ASSERT_EQ(stream.index_count(), expected.size());
@@ -54,6 +57,7 @@ TEST(TriangleStream, makes_in_pieces_what_is_written_at_once) {
       SCOPED_TRACE(name);
       if (mesh.face_count() * triangles_per_face(level) > 100'000) continue;
       expect_whole(mesh, level, std::vector<unsigned char>(mesh.face_count(), 0));
+      expect_whole(mesh, level, std::vector<unsigned char>(mesh.face_count(), 0), true);
     }
 }
 
@@ -76,6 +80,75 @@ TEST(TriangleStream, cuts_larger_faces_from_their_first_corner_on) {
       const Buffer<Index> cut = *TriangleStream(lattice, level, holes).all(1, {});
       ASSERT_EQ(std::vector<Index>(cut.begin(), cut.end()), expected) << name << ' ' << level;
     }
+}
+
+// The faces of corners `indices`, from their lowest on, as FB_ngon_encoding has them: triangles that follow one another
+// and share their first corner are one face.
+std::vector<std::vector<Index>> faces_of_ngons(std::span<const Index> indices) {
+  std::vector<std::vector<Index>> faces;
+  for (Count t = 0; t < indices.size(); t += 3) {
+    if (faces.empty() || faces.back().front() != indices[t]) faces.push_back({indices[t], indices[t + 1]});
+    EXPECT_EQ(faces.back().back(), indices[t + 1]);
+    faces.back().push_back(indices[t + 2]);
+  }
+  for (auto& face : faces) std::ranges::rotate(face, std::ranges::min_element(face));
+  return faces;
+}
+
+std::vector<std::vector<Index>> faces_of(const Lattice& lattice, Index level,
+                                         std::span<const unsigned char> holes) {
+  const Pace pace;
+  std::vector<Index> corners(lattice.corner_count(level, holes, pace)),
+      sizes(lattice.face_count(level, holes, pace), lattice.face_size(level));
+  EXPECT_TRUE(lattice.write_faces(level, holes, corners.data(), 1, {}));
+  if (lattice.face_size(level) == 0) lattice.write_face_sizes(holes, sizes.data(), pace);
+  std::vector<std::vector<Index>> faces;
+  auto next = corners.begin();
+  for (const Index size : sizes) {
+    faces.emplace_back(next, next + size);
+    next += size;
+    std::ranges::rotate(faces.back(), std::ranges::min_element(faces.back()));
+  }
+  return faces;
+}
+
+// Holes of no face, every second one, and two of three.
+std::vector<std::vector<unsigned char>> some_holes(Count faces) {
+  std::vector<std::vector<unsigned char>> all(3, std::vector<unsigned char>(faces, 0));
+  for (Count f = 0; f < faces; ++f) {
+    all[1][f] = f % 2 == 0;
+    all[2][f] = f % 3 != 0;
+  }
+  return all;
+}
+
+TEST(TriangleStream, tells_faces_apart_at_every_level) {
+  for (const auto& [name, mesh] : shapes::polygon_shapes())
+    for (Index level = 0; level <= 4; ++level) {
+      if (mesh.face_count() * triangles_per_face(level) > 100'000) continue;
+      const auto lattice = lattice_of(mesh);
+      for (const auto& holes : some_holes(mesh.face_count())) {
+        TriangleStream stream(lattice, level, holes);
+        const Count count = stream.index_count();
+        ASSERT_EQ(stream.tell_faces_apart(), count > 0 && !lattice->has_triangles());
+        if (lattice->has_triangles()) continue;
+        ASSERT_EQ(stream.index_count(), count);
+        const auto expected = faces_of(*lattice, level, holes);
+        ASSERT_EQ(faces_of_ngons(in_pieces(stream, stream.least_room())), expected) << name << ' ' << level;
+        ASSERT_EQ(faces_of_ngons(*stream.all(1, {})), expected) << name << ' ' << level;
+      }
+    }
+}
+
+TEST(TriangleStream, cuts_a_face_that_begins_like_the_one_before_it_from_its_second_corner_on) {
+  ControlMesh mesh;
+  mesh.points.resize(24);
+  mesh.face_vertex_counts = {4, 4, 4};
+  mesh.face_vertex_indices = {0, 1, 2, 3, 0, 3, 4, 5, 0, 5, 6, 7};
+  TriangleStream stream(lattice_of(mesh), 0, std::vector<unsigned char>(3, 0));
+  EXPECT_EQ(in_pieces(stream, 6), (std::vector<Index>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0, 5, 6, 0, 6, 7}));
+  ASSERT_TRUE(stream.tell_faces_apart());
+  EXPECT_EQ(in_pieces(stream, 6), (std::vector<Index>{0, 1, 2, 0, 2, 3, 3, 4, 5, 3, 5, 0, 0, 5, 6, 0, 6, 7}));
 }
 
 TEST(TriangleStream, leaves_holes_out_wherever_they_are) {

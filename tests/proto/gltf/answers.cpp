@@ -226,6 +226,27 @@ void add_degenerate(Folder& folder) {
   folder.add("degenerate", builder.glb());
 }
 
+// Quads in, quads out, beside a primitive of the triangles that they are cut into.
+void add_ngons(Folder& folder) {
+  const Grid source = grid(3);
+  GltfBuilder builder;
+  const OrderedJson attributes = {{"POSITION", builder.values(source.positions, 3)},
+                                  {"TEXCOORD_0", builder.values(source.coordinates, 2)}};
+  const int indices = builder.values(source.triangles, 1);
+  builder.mesh(attributes, indices);
+  OrderedJson& primitive = builder.document()["meshes"][0]["primitives"][0];
+  primitive["extensions"]["FB_ngon_encoding"] = OrderedJson::object();
+  builder.document()["extensionsUsed"] = {"FB_ngon_encoding"};
+  builder.primitive(attributes, indices);
+  for (const Index level : {0u, 1u, 3u}) {
+    Options options;
+    options.level = level;
+    folder.add("quads_" + std::to_string(level), builder.glb(), options);
+    options.ngons = true;
+    folder.add("ngons_" + std::to_string(level), builder.glb(), options);
+  }
+}
+
 void add_fresh(Folder& folder) {
   proto::RefineRequest request;
   request.options.level = 2;
@@ -273,6 +294,7 @@ int main(int argc, char** argv) {
     add_scenes(folder);
     add_deformed(folder);
     add_degenerate(folder);
+    add_ngons(folder);
     add_fresh(folder);
   } catch (const std::exception& exception) {
     return std::fprintf(stderr, "%s\n", exception.what()), 1;
