@@ -4,6 +4,7 @@
 
 #include "core/base/pace.h"
 #include "core/refine/plan.h"
+#include "proto/cut_faces.h"
 #include "proto/gltf/gltf.h"
 #include "proto/json/json.h"
 #include "proto/json/survey.h"
@@ -115,6 +116,10 @@ Result<Count> working_bytes(const RefineRequest& request, const std::vector<Plan
     Result<RefinedSize> size = predict_size<Real>(request.meshes[i], plans[i], mesh_options(request), budget);
     if (!size) return blame_input(request, size.error(), "meshes", i);
     bytes += size->bytes + size->working_bytes;
+    if (cuts_faces(request)) {
+      *size = cut_size(*std::move(size));
+      bytes += cutting_bytes(request.meshes[i], *size, sizeof(Real));
+    }
     sizes.push_back(std::move(*size));
   }
   for (std::size_t i = 0; i < request.curves.size(); ++i) {
@@ -131,6 +136,16 @@ Result<Count> working_bytes(const RefineRequest& request, const std::vector<Plan
     bytes += kPassingFactor * *size;
   }
   return bytes;
+}
+
+Result<void> cut_all(AnyAnswer& answer, const Budget& budget) {
+  return std::visit(
+      [&](auto& typed) -> Result<void> {
+        for (auto& mesh : typed.meshes)
+          if (auto cut = cut_faces(mesh, budget); !cut) return cut;
+        return {};
+      },
+      answer);
 }
 
 }  // namespace
@@ -195,6 +210,8 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
 
 Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, const Budget& budget) {
   const Format format = answer_format(request);
+  if (cuts_faces(request))
+    if (auto cut = cut_all(answer, budget); !cut) return cut.error();
   if (format == Format::json) return json::write(request, std::move(answer), budget);
   const Result<std::string> members = json::envelope(request, answer, budget);
   if (!members) return members.error();

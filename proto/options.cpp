@@ -107,8 +107,8 @@ std::vector<OptionSpec> options_of_kinds() { return {
     "Which parts of the borders of faceVarying primvars stay linear; set here it overrides every mesh of the body. Default: the mesh's own, cornersPlus1 where it has none."),
   option<&Options::crease_method>(kWord, "creaseMethod", kCreaseMethod, "uniform", "meshes",
     "How the sharpness of semi-sharp creases decays from level to level."),
-  option<&Options::faces>(kWord, "faces", kFaces, "", "surfaces",
-    "What is drawn between the refined points of a B-spline surface. Default: quads in JSON answers, triangles in glTF answers, which know nothing else."),
+  option<&Options::faces>(kWord, "faces", kFaces, "", "meshes, surfaces",
+    "triangles: cut quads and larger faces into triangles from their first corner; quads: the faces that the scheme makes, which must not be triangles, and quads between the refined points of B-spline surfaces. Default: quads where there are any in JSON answers, triangles in glTF answers, which know nothing else."),
   option<&Options::ngons>(kBoolean, "ngons", {}, "false", "meshes, glTF",
     "glTF answers only: mark which triangles make a quad or a larger face, by the extension FB_ngon_encoding."),
   option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, surfaces, glTF",
@@ -333,6 +333,27 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
   return {};
 }
 
+namespace {
+
+// Whoever asks for quads and gets triangles was misunderstood. Not where surfaces make quads: the same word is theirs.
+Result<void> check_faces(const RefineRequest& request, const QueryParameters& query, const Budget& budget) {
+  if (request.options.faces != Faces::quads || !request.surfaces.empty()) return {};
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+      const auto scheme = scheme_of(request.meshes[i], request.options.schemes, pace);
+      if (!scheme || !splits_into_triangles(*scheme)) continue;
+      const std::string_view name = std::visit([]<class S>(const S&) { return S::name; }, *scheme);
+      return Error{ErrorCode::unsupported,
+                   "faces is quads, and mesh " + std::to_string(i) + " is refined by " + std::string(name) +
+                       ", which makes triangles: leave faces out or take another subdivisionScheme",
+                   blame("faces", query)};
+    }
+    return {};
+  });
+}
+
+}  // namespace
+
 Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query,
                            const Budget& budget) {
   const Options& options = request.options;
@@ -350,6 +371,7 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
         "ngons marks larger faces in glTF answers, which hold nothing but triangles; this answer has them as "
         "they are: leave it out or take format glb or gltf",
         blame("ngons", query)};
+  if (auto fine = check_faces(request, query, budget); !fine) return fine;
   if (!options.verify) return {};
   return stoppable(budget, [&](const Pace& pace) -> Result<void> {
     for (const ControlMesh& mesh : request.meshes) {
@@ -367,7 +389,7 @@ std::string effective_options(const RefineRequest& request) {
   Options options = request.options;
   options.precision = answer_precision(request);
   options.format = answer_format(request);
-  if (!request.surfaces.empty()) options.faces = answer_faces(request);
+  if (options.faces || !request.surfaces.empty()) options.faces = answer_faces(request);
   nlohmann::ordered_json echo = nlohmann::ordered_json::object();
   for (const OptionSpec& spec : table())
     if (const auto value = spec.get(options)) echo[std::string(spec.name)] = json_value(spec, *value);

@@ -24,7 +24,7 @@ namespace subdivd::proto {
 
 enum class Format { json, glb, gltf };
 enum class Precision { single_precision, double_precision };  // "single", "double" on the wire
-enum class Faces { triangles, quads };                        // of B-spline surfaces
+enum class Faces { triangles, quads };                        // of meshes and B-spline surfaces
 enum class Weld {
   exact,  // glTF vertices of one mesh with bit-identical positions are one point for connectivity (-0 == +0)
   none,   // the input's indices are the connectivity
@@ -53,7 +53,7 @@ struct Options {
   std::optional<Index> subdivision_scheme;  // place in kSchemeNames; overrides every mesh of the body
   std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body
   std::optional<FaceVaryingInterpolation> face_varying_linear_interpolation;
-  std::optional<Faces> faces;          // default: quads; glTF answers have triangles always
+  std::optional<Faces> faces;          // default: those there are; glTF answers have triangles always
   std::optional<Precision> precision;  // default: double for JSON answers, single for glTF answers
   std::optional<Format> format;        // default: the kind that came in
 };

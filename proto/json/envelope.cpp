@@ -161,9 +161,11 @@ Json warnings(const RefineRequest& request, bool refined) {
     texts.push_back(
         "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
         "out");
-  if (!request.surfaces.empty() && request.options.faces == Faces::quads &&
+  if (!(request.surfaces.empty() && request.meshes.empty()) && request.options.faces == Faces::quads &&
       answer_faces(request) != Faces::quads)
-    texts.push_back("glTF knows no quads: the faces of surfaces are triangles; take format json for quads");
+    texts.push_back(
+        "glTF knows no quads: all faces are triangles; take format json for quads, or ngons to mark which "
+        "triangles of a mesh make one");
   if (refined && request.options.normals &&
       std::ranges::any_of(request.surfaces, [](const ControlPatch& surface) { return surface.width != 3; }))
     texts.push_back("normals exist for surfaces of 3 numbers per point only; others get none");
