@@ -201,6 +201,23 @@ Path blame(std::string_view name, const QueryParameters& query) {
   return {"options", std::string(name)};
 }
 
+// Whoever asks for quads and gets triangles was misunderstood. Not where surfaces make quads: the same word is theirs.
+Result<void> check_faces(const RefineRequest& request, const QueryParameters& query, const Budget& budget) {
+  if (request.options.faces != Faces::quads || !request.surfaces.empty()) return {};
+  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
+    for (std::size_t i = 0; i < request.meshes.size(); ++i) {
+      const auto scheme = scheme_of(request.meshes[i], request.options.schemes, pace);
+      if (!scheme || !splits_into_triangles(*scheme)) continue;
+      const std::string_view name = std::visit([]<class S>(const S&) { return S::name; }, *scheme);
+      return Error{ErrorCode::unsupported,
+                   "faces is quads, and mesh " + std::to_string(i) + " is refined by " + std::string(name) +
+                       ", which makes triangles: leave faces out or take another subdivisionScheme",
+                   blame("faces", query)};
+    }
+    return {};
+  });
+}
+
 nlohmann::ordered_json json_value(const OptionSpec& spec, std::uint64_t value) {
   switch (spec.kind) {
     case OptionKind::boolean:
@@ -332,27 +349,6 @@ Result<void> set_parameters(Options& options, const QueryParameters& query,
   }
   return {};
 }
-
-namespace {
-
-// Whoever asks for quads and gets triangles was misunderstood. Not where surfaces make quads: the same word is theirs.
-Result<void> check_faces(const RefineRequest& request, const QueryParameters& query, const Budget& budget) {
-  if (request.options.faces != Faces::quads || !request.surfaces.empty()) return {};
-  return stoppable(budget, [&](const Pace& pace) -> Result<void> {
-    for (std::size_t i = 0; i < request.meshes.size(); ++i) {
-      const auto scheme = scheme_of(request.meshes[i], request.options.schemes, pace);
-      if (!scheme || !splits_into_triangles(*scheme)) continue;
-      const std::string_view name = std::visit([]<class S>(const S&) { return S::name; }, *scheme);
-      return Error{ErrorCode::unsupported,
-                   "faces is quads, and mesh " + std::to_string(i) + " is refined by " + std::string(name) +
-                       ", which makes triangles: leave faces out or take another subdivisionScheme",
-                   blame("faces", query)};
-    }
-    return {};
-  });
-}
-
-}  // namespace
 
 Result<void> check_options(const RefineRequest& request, const Limits& limits, const QueryParameters& query,
                            const Budget& budget) {
