@@ -75,11 +75,9 @@ Json& Output::primitive(Index mesh, Index primitive) {
   return (*(*meshes_)[mesh].find("primitives")->array())[primitive];
 }
 
+// Not yet into the document: another member might move those that pointers lead to.
 void Output::use_extension(std::string_view name) {
-  Json::Array& used = document_.array_member("extensionsUsed");
-  if (!used.empty() && used.back().string() != nullptr && *used.back().string() == name) return;
-  std::erase_if(used, [&](const Json& json) { return json.string() != nullptr && *json.string() == name; });
-  used.emplace_back(std::string(name));
+  if (std::ranges::find(extensions_, name) == extensions_.end()) extensions_.emplace_back(name);
 }
 
 Index Output::add_accessor(Chunk data, Count count, Count component, std::string_view type, Target target,
@@ -151,6 +149,11 @@ Result<Payload> Output::finish(const std::shared_ptr<const void>& source,
                                const std::vector<Source::Foreign>& foreign) && {
   put_back(document_, "bufferViews", std::move(views_));
   put_back(document_, "accessors", std::move(accessors_));
+  for (const std::string& name : extensions_) {
+    Json::Array& used = document_.array_member("extensionsUsed");
+    const auto is_it = [&](const Json& json) { return json.string() != nullptr && *json.string() == name; };
+    if (std::ranges::none_of(used, is_it)) used.emplace_back(name);
+  }
   if (size_ > 0) {
     Json::Array& buffers = document_.array_member("buffers");
     if (buffers.empty()) buffers.emplace_back();

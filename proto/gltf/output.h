@@ -52,8 +52,9 @@ class Output {
   Json document_;
   Format format_;
   Work& work_;
-  Json::Array views_, accessors_;  // of the document, while they grow
-  Json::Array* meshes_ = nullptr;  // null: the document has none
+  Json::Array views_, accessors_;        // of the document, while they grow
+  Json::Array* meshes_ = nullptr;        // null: the document has none
+  std::vector<std::string> extensions_;  // that the document must name
   std::vector<Chunk> chunks_;
   Count size_ = 0;
 };

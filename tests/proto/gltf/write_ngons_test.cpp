@@ -78,6 +78,16 @@ TEST(WriteNgons, marks_quads_and_tells_them_apart) {
   }
 }
 
+// The list of extensions, which the answer's document did not have, was made between the two: it moved the meshes.
+TEST(WriteNgons, marks_every_primitive) {
+  GltfBuilder builder = seamed_quads();
+  builder.primitive(primitive_of(builder)["attributes"], builder.values<std::uint8_t>({4, 5, 6, 4, 6, 7}, 1));
+  encode_ngons(builder, 1);
+  const OrderedJson json = parse_glb(must_refine(builder.glb(), with_ngons(1)).bytes).json;
+  EXPECT_TRUE(is_marked(json, 0));
+  EXPECT_TRUE(is_marked(json, 1));
+}
+
 TEST(WriteNgons, leaves_meshes_of_triangles_as_they_are) {
   const Outcome marked = must_refine(seamed_octahedron().glb(), with_ngons(1));
   EXPECT_FALSE(is_marked(parse_glb(marked.bytes).json));
