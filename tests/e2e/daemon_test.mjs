@@ -122,6 +122,14 @@ for (const { name, bytes } of bodies) {
     });
 }
 
+for (const { name, bytes } of bodies.filter(({ name }) => ['cube.json', 'house.json', 'sample.glb', 'seams.json'].includes(name)))
+  for (const scheme of ['catmullClark', 'bilinear'])
+    test(`${name} agrees with OpenSubdiv by ${scheme}`, async () => {
+      const { status, bytes: text } = await post('/v1/verify', `level=2&normals=true&subdivisionScheme=${scheme}`, bytes);
+      assert.equal(status, 200, text.toString());
+      assert.equal(JSON.parse(text).verification.passed, true, text.toString());
+    });
+
 for (const { name, bytes } of bodies.filter(({ isGlb }) => !isGlb))
   test(`the answer to ${name} is a valid request`, async () => {
     const first = await post('/v1/refine', 'level=1', bytes);

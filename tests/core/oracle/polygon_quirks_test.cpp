@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/oracle/verify.h"
 #include "tests/core/oracle/polygon_fixtures.h"
 
 namespace subdivd::oracle::testing {
@@ -244,6 +245,14 @@ TEST(PolygonQuirks, bilinear_faces_at_an_open_border_are_no_holes_of_fars) {
   EXPECT_EQ(std::count(smooth->holes.begin(), smooth->holes.end(), 1), 24);
   EXPECT_EQ(std::count(linear->holes.begin(), linear->holes.end(), 1), 0);
   EXPECT_TRUE(both_of(bilinear(mesh), everything(1)).compared().connectivity_identical);
+  const auto report = verify<double>(bilinear(mesh), everything(1), Budget{});
+  ASSERT_TRUE(report.ok());
+  EXPECT_NE(report->verdict, Verdict::failed);
+  EXPECT_EQ(std::count_if(report->remarks.begin(), report->remarks.end(),
+                          [](const std::string& remark) {
+                            return remark.starts_with("interpolateBoundary none: the faces at the border");
+                          }),
+            1);
 }
 
 }  // namespace
