@@ -267,6 +267,16 @@ TEST(FarCost, refuses_schemes_of_other_names) {
   EXPECT_EQ(refusal(mesh, 1).where, (Path{"subdivisionScheme"}));
 }
 
+TEST(FarCost, refuses_schemes_that_far_does_not_have) {
+  ControlMesh mesh = shapes::icosahedron();
+  mesh.subdivision_scheme = "butterfly";
+  const Error error = refusal(mesh, 1);
+  EXPECT_EQ(error.code, ErrorCode::unsupported);
+  EXPECT_NE(error.message.find("OpenSubdiv does not know this scheme"), std::string::npos) << error.message;
+  EXPECT_EQ(far_refine<double>(mesh, everything(1), Budget{}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(verify<double>(mesh, everything(1), Budget{}).error().code, ErrorCode::unsupported);
+}
+
 TEST(FarCost, curves_and_surfaces_are_refused_before_they_begin) {
   ControlCurves curves;
   curves.width = 1;
