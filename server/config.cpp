@@ -124,7 +124,7 @@ constexpr std::array kSettings = {
   Setting{"log-level", "info", "debug, info, warn, error or off",
           "Requests are logged at info, failures of the server at error", set_log_level},
   Setting{"self-test", "on", "on or off",
-          "Compare a small mesh with OpenSubdiv at start; /readyz says how it went", set_switch<&Config::self_test>},
+          "Compare small meshes with OpenSubdiv at start; /readyz says how it went", set_switch<&Config::self_test>},
 };
 // clang-format on
 

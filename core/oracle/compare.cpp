@@ -20,7 +20,14 @@ constexpr const char* kNonManifold = "no common tangent plane at non-manifold ve
 constexpr const char* kSides = "creases inside the surface have a tangent plane on either side";
 constexpr const char* kCorner = "corners of several faces have no common tangent plane";
 constexpr const char* kIrregularBorder =
-    "Far's tangent across a border vertex of more than three faces is no eigenvector of the subdivision";
+    "Far's tangent across a border vertex of more than three faces (two where faces become quads) is no "
+    "eigenvector of "
+    "the subdivision";
+constexpr const char* kTwoFaces = "Far leaves points of two faces where they are";
+constexpr const char* kOtherFaces = "Far's limit masks are those of quads, also at points of other faces";
+constexpr const char* kMovedSeams =
+    "Far moves the limits of values at seams, which bilinear subdivision keeps";
+constexpr const char* kFlatPieces = "Far's tangents where bilinear pieces meet are those of one of them";
 constexpr const char* kNoNormal = "degenerate surface without a normal";
 constexpr const char* kTorn = "Far tears a value that two separate groups of faces around a point share";
 
@@ -60,21 +67,33 @@ Deviation incomparable(std::string quantity, double tolerance) {
 }
 
 // Why a limit by Far is no witness at this vertex; null when it is one.
-const char* limit_objection(const FarVertex& vertex) {
-  if (vertex.faces == 0) return nullptr;  // both sides keep the point
+const char* limit_objection(const FarVertex& vertex, FarScheme scheme) {
+  // Both sides keep the point.
+  if (vertex.faces == 0 || scheme == FarScheme::bilinear) return nullptr;
   if (vertex.semi_sharp) return kSemiSharp;
   if (vertex.rule == FarRule::dart) return kDart;
-  return nullptr;
+  if (scheme == FarScheme::loop || vertex.rule != FarRule::smooth) return nullptr;
+  if (vertex.faces == 2) return kTwoFaces;
+  return vertex.has_other_faces ? kOtherFaces : nullptr;
 }
 
-const char* normal_objection(const FarVertex& vertex) {
+const char* bilinear_normal_objection(const FarVertex& vertex, Index level) {
+  const Count n = segments(level);
+  const Provenance& at = vertex.place;
+  const bool inside_piece = at.i > 0 && at.i < n && at.j > 0 && at.j < n;
+  return inside_piece || vertex.faces == 1 ? nullptr : kFlatPieces;
+}
+
+const char* normal_objection(const FarVertex& vertex, FarScheme scheme, Index level) {
   if (vertex.faces == 0) return kIsolated;
-  if (const char* reason = limit_objection(vertex)) return reason;
   if (vertex.non_manifold) return kNonManifold;
+  if (scheme == FarScheme::bilinear) return bilinear_normal_objection(vertex, level);
+  if (const char* reason = limit_objection(vertex, scheme)) return reason;
   if (vertex.rule == FarRule::corner && vertex.faces > 1) return kCorner;
-  if (vertex.rule == FarRule::crease && !vertex.boundary) return kSides;
-  if (vertex.rule == FarRule::crease && vertex.faces > 3) return kIrregularBorder;
-  return nullptr;
+  if (vertex.rule != FarRule::crease) return nullptr;
+  if (!vertex.boundary) return kSides;
+  if (vertex.faces > (scheme == FarScheme::loop ? 3u : 2u)) return kIrregularBorder;
+  return vertex.has_other_faces ? kOtherFaces : nullptr;
 }
 
 // Distances of 3-vectors, one per vertex.
@@ -86,7 +105,7 @@ Deviation compare_points(const Sides<Real>& sides, const char* quantity, std::sp
     return incomparable(quantity, tolerance);
   DeviationMeter meter = sides.meter(quantity, sides.scale.diagonal, tolerance);
   sides.for_each_pair([&](Index f, Index v) {
-    const char* objection = limit ? limit_objection(sides.far.vertices[f]) : nullptr;
+    const char* objection = limit ? limit_objection(sides.far.vertices[f], sides.far.scheme) : nullptr;
     if (objection != nullptr) return meter.except(objection);
     Vector difference = vector_at<Real>(ours, v);
     const Vector other = vector_at<Real>(far, f);
@@ -111,7 +130,8 @@ Deviation compare_normals(const Sides<Real>& sides) {
   const double rounding = double{std::numeric_limits<Real>::epsilon()} * sides.scale.diagonal *
                           sides.scale.remoteness * 2 / (normal_tolerance<Real>() * std::numbers::pi / 180);
   sides.for_each_pair([&](Index f, Index v) {
-    if (const char* objection = normal_objection(far.vertices[f])) return meter.except(objection);
+    if (const char* objection = normal_objection(far.vertices[f], far.scheme, far.level))
+      return meter.except(objection);
     const Vector ours = vector_at<Real>(sides.ours.normals, v);
     const Vector u = vector_at<Real>(far.tangents_u, f), v_across = vector_at<Real>(far.tangents_v, f);
     const Vector theirs = cross(unit(u), unit(v_across));
@@ -158,22 +178,20 @@ void for_each_value(const Sides<Real>& sides, const RefinedPrimvar<Real>& ours, 
       sides.for_each_pair([&](Index f, Index v) { visit(sides.site(v), f, v, f); });
       break;
     case Interpolation::uniform:
-      for (Index f = 0; f < sides.pairs.triangles.size(); ++f) {
+      for (Index f = 0; f < sides.pairs.faces.size(); ++f) {
         sides.pace.spend(8);
-        if (const Index t = sides.pairs.triangles[f]; t != kNoIndex)
-          visit(Site{kNoIndex,
-                     {sides.far.base_faces[f], sides.far.corners[3 * f].i, sides.far.corners[3 * f].j}},
-                kNoIndex, t, f);
+        if (const Index face = sides.pairs.faces[f]; face != kNoIndex)
+          visit(Site{kNoIndex, sides.far.place(f, sides.far.rows.begin(f))}, kNoIndex, face, f);
       }
       break;
     case Interpolation::face_varying:
-      for (Index c = 0; c < sides.pairs.corners.size(); ++c) {
-        sides.pace.spend(8);
-        if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
-          visit(Site{sides.ours.faces[corner],
-                     {sides.far.base_faces[c / 3], sides.far.corners[c].i, sides.far.corners[c].j}},
-                sides.far.faces[c], ours.indices[corner], far.indices[c]);
-      }
+      for (Index f = 0; f < sides.pairs.faces.size(); ++f)
+        for (Count c = sides.far.rows.begin(f); c < sides.far.rows.end(f); ++c) {
+          sides.pace.spend(8);
+          if (const Index corner = sides.pairs.corners[c]; corner != kNoIndex)
+            visit(Site{sides.ours.faces[corner], sides.far.place(f, c)}, sides.far.faces[c],
+                  ours.indices[corner], far.indices[c]);
+        }
       break;
   }
 }
@@ -222,8 +240,12 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
   DeviationMeter meter = sides.meter(quantity, scale, tolerance);
   const std::size_t width = control.element_size;
   for_each_value(sides, ours, far, [&](const Site& site, Index far_vertex, Index v, Index f) {
-    const char* objection =
-        limit && far_vertex != kNoIndex ? limit_objection(sides.far.vertices[far_vertex]) : nullptr;
+    const char* objection = limit && far_vertex != kNoIndex
+                                ? limit_objection(sides.far.vertices[far_vertex], sides.far.scheme)
+                                : nullptr;
+    if (limit && sides.far.scheme == FarScheme::bilinear &&
+        !std::equal(&far.limit_values[f * width], &far.limit_values[(f + 1) * width], &far.values[f * width]))
+      objection = kMovedSeams;
     if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
     if (objection != nullptr) return meter.except(objection);
     sides.pace.spend(width);
@@ -238,8 +260,7 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
 template <class Real>
 LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, const FarLevel<Real>& far,
                     const Pace& pace) {
-  const Correspondence pairs =
-      match(OurConnectivity{ours.level, ours.faces, ours.base_faces, ours.provenance}, far, pace);
+  const Correspondence pairs = match(connectivity_of(ours, pace), far, pace);
   Sides<Real> sides{mesh, ours, far, pairs, point_scale(mesh.points, 3, pace), pace, value_tolerance<Real>()};
   if (sharpness_rounds(mesh, pace))
     sides.value_tolerance = std::max(sides.value_tolerance, kSharpnessRounding);
@@ -247,7 +268,7 @@ LevelReport compare(const ControlMesh& mesh, const RefinedMesh<Real>& ours, cons
   report.level = far.level;
   report.connectivity_identical = pairs.identical;
   report.vertices = ours.provenance.size();
-  report.triangles = ours.base_faces.size();
+  report.faces = ours.base_faces.size();
   report.deviations.push_back(compare_points<Real>(sides, "points", ours.points, far.points, false));
   if (!ours.limit_points.empty())
     report.deviations.push_back(

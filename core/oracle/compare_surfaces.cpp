@@ -231,7 +231,7 @@ LevelReport compare(const ControlPatch& patch, const RefinedPatch<Real>& ours, c
   LevelReport report;
   report.level = ours.level;
   report.vertices = sides.points();
-  report.quads = ours.faces.size() / 4;
+  report.faces = ours.faces.size() / 4;
   report.connectivity_identical = same_sizes(sides) && same_quads(sides);
   if (!report.connectivity_identical) return report;
   report.deviations.push_back(compare_points(sides, "points", ours.points, far.points, false));

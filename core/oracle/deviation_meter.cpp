@@ -28,6 +28,7 @@ void DeviationMeter::add(double relative, const Site& site) {
   deviation_.max_relative = value;
   deviation_.worst_vertex = site.vertex;
   deviation_.worst_face = site.place.face;
+  deviation_.worst_corner = site.place.corner;
   deviation_.worst_u = site.place.face == kNoIndex ? 0 : site.place.i / segments_;
   deviation_.worst_v = site.place.face == kNoIndex ? 0 : site.place.j / segments_;
 }

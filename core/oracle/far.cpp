@@ -9,6 +9,7 @@
 #include "core/base/pace.h"
 #include "core/oracle/far_cost.h"
 #include "core/oracle/far_grid.h"
+#include "core/oracle/far_limits.h"
 #include "core/oracle/far_quirks.h"
 #include "core/oracle/far_refiner.h"
 #include "core/oracle/far_rows.h"
@@ -45,7 +46,8 @@ FarRule rule_of(const Far::TopologyLevel& level, int vertex) {
   }
 }
 
-FarVertex describe(const Far::TopologyLevel& level, int vertex) {
+// `face_size`: corners of the faces that the scheme makes.
+FarVertex describe(const Far::TopologyLevel& level, int vertex, int face_size) {
   FarVertex described;
   described.rule = rule_of(level, vertex);
   described.faces = static_cast<Index>(level.GetVertexFaces(vertex).size());
@@ -54,44 +56,60 @@ FarVertex describe(const Far::TopologyLevel& level, int vertex) {
   described.semi_sharp = level.IsVertexSemiSharp(vertex);
   const Far::ConstIndexArray edges = level.GetVertexEdges(vertex);
   for (int k = 0; k < edges.size(); ++k) described.semi_sharp |= level.IsEdgeSemiSharp(edges[k]);
+  const Far::ConstIndexArray faces = level.GetVertexFaces(vertex);
+  for (int k = 0; k < faces.size(); ++k)
+    described.has_other_faces |= level.GetFaceVertices(faces[k]).size() != face_size;
   return described;
 }
 
-// The lowest base face of every vertex and the place there; the corners must stand in `result`.
+// Far's vertices at the corners of every face.
 template <class Real>
 void take_faces(const Far::TopologyLevel& level, FarLevel<Real>& result, const Pace& pace) {
-  const auto faces = static_cast<std::size_t>(level.GetNumFaces());
-  result.faces.resize(3 * faces);
-  result.holes.resize(faces);
-  for (std::size_t face = 0; face < faces; ++face) {
-    pace.spend(4);
-    const Far::ConstIndexArray vertices = level.GetFaceVertices(static_cast<int>(face));
-    const Index base = result.base_faces[face];
-    for (int k = 0; k < 3; ++k) {
-      const std::size_t at = 3 * face + static_cast<std::size_t>(k);
-      const GridPoint corner = result.corners[at];
-      Provenance& place = result.vertices[static_cast<std::size_t>(vertices[k])].place;
-      if (base < place.face) place = {base, corner.i, corner.j};  // kNoIndex is the largest
-      result.faces[at] = static_cast<Index>(vertices[k]);
-    }
-    result.holes[face] = level.IsFaceHole(static_cast<int>(face)) ? 1 : 0;
+  const int faces = level.GetNumFaces();
+  // Only the control mesh has faces of several sizes.
+  result.rows = result.level == 0
+                    ? result.base_rows
+                    : FaceRows(result.shape == GridShape::triangles ? 3 : 4, static_cast<Count>(faces));
+  result.faces.reserve(result.rows.corner_count());
+  result.holes.reserve(static_cast<std::size_t>(faces));
+  for (int face = 0; face < faces; ++face) {
+    const Far::ConstIndexArray vertices = level.GetFaceVertices(face);
+    pace.spend(static_cast<Count>(vertices.size()) + 1);
+    for (int k = 0; k < vertices.size(); ++k) result.faces.push_back(static_cast<Index>(vertices[k]));
+    result.holes.push_back(level.IsFaceHole(face) ? 1 : 0);
   }
+}
+
+// The lowest base face of every vertex and its place there, on the quad of the lowest corner where there are
+// such. The faces must stand in `result`.
+template <class Real>
+void place_vertices(FarLevel<Real>& result, const Pace& pace) {
+  for (Count face = 0; face < result.rows.count(); ++face)
+    for (Count at = result.rows.begin(face); at < result.rows.end(face); ++at) {
+      pace.spend(1);
+      const Provenance here = result.place(face, at);
+      Provenance& place = result.vertices[result.faces[at]].place;
+      if (here.face < place.face || (here.face == place.face && here.corner < place.corner)) place = here;
+    }
 }
 
 // Everything about one level but values.
 template <class Real>
 void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Real>& result,
                    const Pace& pace) {
-  FarGrid grid = grid_of(refiner, depth, pace);
+  FarGrid grid = grid_of(refiner, result.shape, depth, pace);
   result.corners = std::move(grid.corners);
   result.base_faces = std::move(grid.base_faces);
+  result.base_corners = std::move(grid.base_corners);
   const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(depth));
   result.vertices.reserve(static_cast<std::size_t>(level.GetNumVertices()));
   for (int v = 0; v < level.GetNumVertices(); ++v) {
-    pace.spend(4 + static_cast<Count>(level.GetVertexEdges(v).size()));
-    result.vertices.push_back(describe(level, v));
+    pace.spend(4 + 2 * static_cast<Count>(level.GetVertexEdges(v).size()));
+    result.vertices.push_back(describe(level, v, result.shape == GridShape::triangles ? 3 : 4));
   }
   take_faces(level, result, pace);
+  place_vertices(result, pace);
+  result.optional_faces = faces_at_open_border(refiner, pace);
 
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   for (int v = 0; v < base.GetNumVertices(); ++v) {  // unreferenced points
@@ -134,36 +152,16 @@ Buffer<Real> interpolate(const Far::TopologyRefiner& refiner, Index depth, Carri
 }
 
 template <class Real>
-Buffer<Real> limits(const Far::TopologyRefiner& refiner, Buffer<Real>& values, Index width,
-                    const Pace& pace) {
-  Buffer<Real> result(values.size());
-  Rows<Real> to(result, width, pace);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(values, width, pace), to);
-  return result;
-}
-
-template <class Real>
-void take_limit_frame(const Far::TopologyRefiner& refiner, FarLevel<Real>& result, const Pace& pace) {
-  const std::size_t size = result.points.size();
-  result.limit_points.resize(size);
-  result.tangents_u.resize(size);
-  result.tangents_v.resize(size);
-  Rows<Real> limit(result.limit_points, 3, pace), u(result.tangents_u, 3, pace),
-      v(result.tangents_v, 3, pace);
-  Far::PrimvarRefinerReal<Real>(refiner).Limit(Rows<Real>(result.points, 3, pace), limit, u, v);
-}
-
-template <class Real>
 void take_face_varying(const Far::TopologyRefiner& refiner, const RefineOptions& options, int channel,
                        Buffer<Real> control, Index width, FarPrimvar<Real>& result, const Pace& pace) {
   const Far::TopologyLevel& level = refiner.GetLevel(static_cast<int>(options.level));
   result.values =
       interpolate(refiner, options.level, Carrier::face_varying, channel, std::move(control), width, pace);
-  result.indices.reserve(static_cast<std::size_t>(level.GetNumFaces()) * 3);
+  result.indices.reserve(static_cast<std::size_t>(level.GetNumFaceVertices()));
   for (int face = 0; face < level.GetNumFaces(); ++face) {
-    pace.spend(3);
     const Far::ConstIndexArray values = level.GetFaceFVarValues(face, channel);
-    for (int k = 0; k < 3; ++k) result.indices.push_back(static_cast<Index>(values[k]));
+    pace.spend(static_cast<Count>(values.size()));
+    for (int k = 0; k < values.size(); ++k) result.indices.push_back(static_cast<Index>(values[k]));
   }
   result.torn_faces = faces_at_torn_values(refiner, channel, pace);
   // At the control mesh LimitFaceVarying takes indices of values for indices of its own tags: wrong tags, and
@@ -195,7 +193,7 @@ Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const
     case Interpolation::vertex:
       result.values =
           interpolate(refiner, options.level, Carrier::vertex, 0, std::move(result.values), width, pace);
-      if (options.limit) result.limit_values = limits(refiner, result.values, width, pace);
+      if (options.limit) result.limit_values = far_limits(refiner, result.values, width, pace);
       break;
     case Interpolation::varying:
       result.values =
@@ -209,44 +207,21 @@ Result<FarPrimvar<Real>> take_primvar(const Far::TopologyRefiner& refiner, const
 
 }  // namespace
 
-Result<void> check_far_corners(Count corners) {
-  constexpr Count kMost = std::numeric_limits<int>::max();
-  if (corners <= kMost) return {};
-  return Error{.code = ErrorCode::too_large,
-               .message = "the refined mesh has more face corners than OpenSubdiv can number",
-               .predicted = corners,
-               .allowed = kMost};
+template <class Real>
+Provenance FarLevel<Real>::place(Count face, Count corner) const {
+  const GridPoint at = corners[corner];
+  Index base_corner = base_corners.empty() ? 0 : base_corners[face];
+  if (level == 0 && shape == GridShape::corners && rows.size(face) != 4)
+    base_corner = static_cast<Index>(corner - rows.begin(face));
+  return {base_faces[face], at.i, at.j, base_corner};
 }
 
-Result<void> check_far_bytes(Count bytes, const Budget& budget) {
-  if (bytes <= budget.max_bytes) return {};
-  return Error{.code = ErrorCode::too_large,
-               .message = "verification would take about " + std::to_string(bytes) + " bytes; " +
-                          std::to_string(budget.max_bytes) + " are allowed: choose a lower level",
-               .predicted = bytes,
-               .allowed = budget.max_bytes};
-}
-
-Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget) {
-  if (level > kMaxFarLevel)
-    return Error{.code = ErrorCode::out_of_range,
-                 .message = "verification reaches level " + std::to_string(kMaxFarLevel) + "; level " +
-                            std::to_string(level) + " was asked for",
-                 .predicted = level,
-                 .allowed = kMaxFarLevel};
-  if (mesh.face_count() == 0 || mesh.point_count() == 0)
-    return Error{ErrorCode::unsupported, "OpenSubdiv takes no mesh without faces", {"faceVertexIndices"}};
-  // Far sums face corners over all levels: a third more than the last level has.
-  const Count corners = (mesh.face_count() * 3 * triangles_per_face(level)) * 4 / 3 + mesh.point_count();
-  if (auto fits = check_far_corners(corners); !fits) return fits;
-  if (auto fits = check_far_bytes(far_mesh_bytes(mesh, level), budget); !fits) return fits;
-  const auto load = far_load(mesh, budget);
-  if (!load) return load.error();
-  return check_far_time(*load, level);
-}
+template struct FarLevel<float>;
+template struct FarLevel<double>;
 
 struct FarMesh::State {
   const ControlMesh* mesh;
+  FarScheme scheme;
   FarRefiner refiner;
   Index deepest;
   std::optional<Index> refined_to;
@@ -275,26 +250,37 @@ Result<FarMesh> FarMesh::build(const ControlMesh& mesh, CreaseMethod crease_meth
                                const Budget& budget) {
   if (auto fits = check_far_size(mesh, deepest, budget); !fits) return fits.error();
   if (auto stop = budget.poll()) return *stop;
-  Result<FarRefiner> made = make_refiner(mesh, crease_method);
+  const auto scheme = stoppable(budget, [&](const Pace& pace) { return far_scheme_of(mesh, pace); });
+  if (!scheme) return scheme.error();
+  Result<FarRefiner> made = make_refiner(mesh, crease_method, *scheme);
   if (!made) return made.error();
   if (auto stop = budget.poll()) return *stop;
-  return FarMesh(std::make_unique<State>(State{&mesh, std::move(*made), deepest, {}}));
+  return FarMesh(std::make_unique<State>(State{&mesh, *scheme, std::move(*made), deepest, {}}));
 }
 
 namespace {
 
 // The refiner has been refined to options.level; beyond it only where no limits are asked for.
 template <class Real>
-Result<FarLevel<Real>> take_level(const ControlMesh& mesh, const Far::TopologyRefiner& refiner,
-                                  const RefineOptions& options, const Pace& pace) {
+Result<FarLevel<Real>> take_level(const ControlMesh& mesh, FarScheme scheme,
+                                  const Far::TopologyRefiner& refiner, const RefineOptions& options,
+                                  const Pace& pace) {
   FarLevel<Real> result;
   result.level = options.level;
+  result.scheme = scheme;
+  result.shape = grid_shape_of(mesh, scheme, pace);
+  result.base_rows = base_rows_of(mesh, pace);
   result.base_points = static_cast<Index>(mesh.point_count());
   take_topology(refiner, options.level, result, pace);
   auto control = convert_values<Real>(mesh.points, {"points"}, pace);
   if (!control) return control.error();
   result.points = interpolate(refiner, options.level, Carrier::vertex, 0, std::move(*control), 3, pace);
-  if (options.limit || options.tangents || options.normals) take_limit_frame(refiner, result, pace);
+  if (options.limit || options.tangents || options.normals) {
+    FarFrames<Real> frames = far_frames(refiner, scheme, result.points, pace);
+    result.limit_points = std::move(frames.points);
+    result.tangents_u = std::move(frames.tangents_u);
+    result.tangents_v = std::move(frames.tangents_v);
+  }
 
   int channel = 0;
   for (const Primvar& primvar : mesh.primvars) {
@@ -319,7 +305,7 @@ Result<FarLevel<Real>> FarMesh::refine(const RefineOptions& options, const Budge
   far_has_complained();  // forget what came before
   state_->refine_to(last);
   auto result = stoppable(budget, [&](const Pace& pace) {
-    return take_level<Real>(*state_->mesh, *state_->refiner, options, pace);
+    return take_level<Real>(*state_->mesh, state_->scheme, *state_->refiner, options, pace);
   });
   if (options.level == last) state_->unrefine();  // its memory is needed for the comparison
   return result;

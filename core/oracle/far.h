@@ -8,6 +8,8 @@
 #include "core/base/buffer.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
+#include "core/oracle/far_scheme.h"
+#include "core/oracle/grids.h"
 #include "core/refine/refine.h"
 
 namespace subdivd::oracle {
@@ -26,7 +28,8 @@ struct FarVertex {
   Index faces = 0;        // incident faces
   bool boundary = false;  // on a border edge
   bool non_manifold = false;
-  bool semi_sharp = false;  // the vertex or an edge at it still is
+  bool semi_sharp = false;       // the vertex or an edge at it still is
+  bool has_other_faces = false;  // at level 0: than its scheme makes
 };
 
 template <class Real>
@@ -41,22 +44,33 @@ struct FarPrimvar {
 template <class Real>
 struct FarLevel {
   Index level = 0;
+  FarScheme scheme = FarScheme::loop;
+  GridShape shape = GridShape::triangles;
+  FaceRows base_rows;     // corners of every base face
   Index base_points = 0;  // control points
   Buffer<Real> points;    // x y z per vertex
   Buffer<FarVertex> vertices;
-  Buffer<Index> faces;                     // 3 vertices per face, holes included
-  Buffer<GridPoint> corners;               // of every face corner: its place on the grid of the base face
-  Buffer<Index> base_faces;                // per face
-  Buffer<unsigned char> holes;             // per face
+  FaceRows rows;                // corners of every face, holes included
+  Buffer<Index> faces;          // vertices, corner by corner
+  Buffer<GridPoint> corners;    // of every face corner: its place on the grid of the base face
+  Buffer<Index> base_faces;     // per face
+  Buffer<Index> base_corners;   // per face: FarGrid says when, otherwise empty
+  Buffer<unsigned char> holes;  // per face
+  // Per base face: set where Far gives what we may leave out (far_quirks.h); empty when it nowhere does.
+  std::vector<unsigned char> optional_faces;
   std::vector<FarPrimvar<Real>> primvars;  // in the order of ControlMesh::primvars
   Buffer<Real> limit_points;               // with options.limit, tangents or normals: x y z per vertex
   Buffer<Real> tangents_u, tangents_v;     // with options.tangents or normals; lengths are Far's own
+
+  // Of a corner of that face, counted as in `corners`.
+  Provenance place(Count face, Count corner) const;
 };
 
-// Whether Far would take this mesh to this level: out_of_range (level), unsupported (no faces, or a point of
-// more faces than Far can count), too_large (counts that Far cannot number, more working memory than
-// budget.max_bytes: see far_mesh_bytes, or a call of Far that would take too long: see far_cost.h). Linear in
-// the size of the control mesh; stops when the budget says stop.
+// Whether Far would take this mesh to this level: out_of_range (level), unsupported (no faces, a scheme that
+// Far does not have, or a face or point of more corners or faces than Far can count), too_large (counts that
+// Far cannot number, more working memory than budget.max_bytes: see far_mesh_bytes, or a call of Far that
+// would take too long: see far_cost.h). Linear in the size of the control mesh; stops when the budget says
+// stop.
 Result<void> check_far_size(const ControlMesh& mesh, Index level, const Budget& budget);
 // Bytes that verify() takes at its peak for Far, FarLevel<double> and the comparison, with limits and
 // normals; our own refine() comes on top. Measured, on the safe side: README.md. Of any mesh, checked or not,

@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "core/lattice/quads.h"
 #include "core/lattice/split.h"
 #include "core/oracle/far.h"
+#include "core/oracle/far_scheme.h"
 #include "core/oracle/verify.h"
 
 // In double: sums of products of what a caller may ask for leave 64 bits, and a bound needs no last digit.
@@ -12,15 +14,30 @@ namespace {
 // How many values there are at a level, with as many edges as faces can have.
 struct Counts {
   double points, vertices, edges, faces;
-  double face_varying;  // values of a channel in which every corner has its own
+  double further_corners;  // than faces of three have
+  double face_varying;     // values of a channel in which every corner has its own
 };
 
+// Of `points` points, as many edges as corners.
+LevelCounts most_of(const ControlMesh& mesh, Count points, bool triangles, Index level) {
+  const Count faces = mesh.face_count(), corners = mesh.face_vertex_indices.size();
+  if (level == 0) return {points, corners, faces, 0};
+  if (triangles) return refined_counts(points, corners, faces, level);
+  return refined_quad_counts(points + corners + faces, 3 * corners, corners, level - 1);
+}
+
 Counts counts_at(const ControlMesh& mesh, Index level) {
-  const Count faces = mesh.face_count();
-  const LevelCounts all = refined_counts(mesh.point_count(), 3 * faces, faces, level);
-  const LevelCounts torn = refined_counts(3 * faces, 3 * faces, faces, level);
-  return {static_cast<double>(mesh.point_count()), static_cast<double>(all.vertices),
-          static_cast<double>(all.edges), static_cast<double>(all.faces), static_cast<double>(torn.vertices)};
+  const bool triangles = makes_triangles(mesh);
+  const Count corners = mesh.face_vertex_indices.size();
+  const LevelCounts all = most_of(mesh, mesh.point_count(), triangles, level);
+  const LevelCounts torn = most_of(mesh, corners, triangles, level);
+  const auto size = [](Count count) { return static_cast<double>(count); };
+  return {size(mesh.point_count()),
+          size(all.vertices),
+          size(all.edges),
+          size(all.faces),
+          size(corners * triangles_per_face(level)) - 3 * size(all.faces),
+          size(torn.vertices)};
 }
 
 double channels(const ControlMesh& mesh) {
@@ -31,15 +48,18 @@ double channels(const ControlMesh& mesh) {
 
 // Far's own tables. Measured with every vector's spare capacity: README.md.
 double control_tables(const Counts& base, double channels) {
-  return 130 * base.points + (300 + 70 * channels) * base.faces;
+  return 130 * base.points + (300 + 70 * channels) * base.faces + (45 + 15 * channels) * base.further_corners;
 }
 double level_tables(const Counts& level, double channels) {
-  return (45 + 20 * channels) * level.vertices + 33 * level.edges + (105 + 30 * channels) * level.faces;
+  return (45 + 20 * channels) * level.vertices + 33 * level.edges + (105 + 30 * channels) * level.faces +
+         (8 + 4 * channels) * level.further_corners;
 }
 
 // FarLevel<double> without primvars: place, rule, point, limit and two tangents of every vertex; corners,
 // their places, base face and hole of every face. And the level below of what is carried from level to level.
-double level_arrays(const Counts& level) { return 130 * level.vertices + 55 * level.faces; }
+double level_arrays(const Counts& level) {
+  return 130 * level.vertices + 55 * level.faces + 16 * level.further_corners;
+}
 
 // Values and limits of the last level, values of the one before, and control values in double.
 double primvar_arrays(const Primvar& primvar, const Counts& level) {
@@ -55,7 +75,7 @@ double primvar_arrays(const Primvar& primvar, const Counts& level) {
     case Interpolation::face_varying:
       break;
   }
-  return 2.5 * row * level.face_varying + 12 * level.faces + control;
+  return 2.5 * row * level.face_varying + 12 * level.faces + 4 * level.further_corners + control;
 }
 
 Count as_count(double bytes) {

@@ -10,6 +10,7 @@
 #include "core/base/index.h"
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
+#include "core/oracle/grids.h"
 
 namespace subdivd::oracle {
 
@@ -18,15 +19,19 @@ namespace subdivd::oracle {
 using Picoseconds = Count;
 inline constexpr Picoseconds kLongestFarCall = 1'000'000'000'000;  // a second
 
-// Far keeps the faces and the edges of a point in 16 bits.
+// Far keeps the faces and the edges of a point, and the corners of a face, in 16 bits.
 inline constexpr Count kMostFacesOfAPoint = 65535;
 
 // What Far's time depends on.
 struct FarLoad {
-  Count points = 0, edges = 0, faces = 0;
+  GridShape shape = GridShape::triangles;
+  Count points = 0, edges = 0, faces = 0, corners = 0;
   Count face_varying_channels = 0;
   // Over all points: faces times edges. Far looks for every side of a face among the edges of its first end.
   Count searches = 0;
+  // Over all faces of more than three corners: corners squared. Far looks for every point of a face among the
+  // face's corners.
+  Count corner_searches = 0;
   // Over all points: faces squared, once per channel. Far looks for every value among those it has found.
   Count value_searches = 0;
   // Over all creases: the edges of the end that has fewer.
@@ -42,10 +47,13 @@ struct FarLoad {
   Index busiest_point = kNoIndex;
   Count busiest_faces = 0, busiest_edges = 0;
   Count most_faces_of_an_edge = 0;
+  Index largest_face = kNoIndex;  // and its corners
+  Count most_corners = 0;
 };
 
-// `mesh` must have passed check(). Linear, in both memory and time. Fails with unsupported for a point of
-// more than kMostFacesOfAPoint faces or edges, and when the budget says stop.
+// `mesh` must have passed check(). Linear, in both memory and time. Fails as far_scheme_of(), with
+// unsupported for a point of more than kMostFacesOfAPoint faces or edges and for a face of more corners, and
+// when the budget says stop.
 Result<FarLoad> far_load(const ControlMesh& mesh, const Budget& budget);
 
 Picoseconds far_build_time(const FarLoad& load);

@@ -12,7 +12,6 @@ namespace subdivd::oracle {
 namespace {
 
 namespace Far = OpenSubdiv::Far;
-namespace Sdc = OpenSubdiv::Sdc;
 
 // A face of Far's, and which of its corners is the first of ours.
 struct TurnedFace {
@@ -56,9 +55,10 @@ std::vector<Index> corners_of(const Far::TopologyLevel& level, const std::vector
 
 Result<std::vector<FarPolygons>> refine_all(const ControlMesh& mesh, const FarPolygonRules& rules,
                                             Index level, const Pace& pace) {
-  auto made = make_refiner(
-      mesh, rules.crease_method, rules.bilinear ? Sdc::SCHEME_BILINEAR : Sdc::SCHEME_CATMARK,
-      rules.triangles == TriangleRule::smooth ? Sdc::Options::TRI_SUB_SMOOTH : Sdc::Options::TRI_SUB_CATMARK);
+  ControlMesh ruled = mesh;
+  ruled.triangle_subdivision_rule = rules.triangles;
+  auto made = make_refiner(ruled, rules.crease_method,
+                           rules.bilinear ? FarScheme::bilinear : FarScheme::catmull_clark);
   if (!made) return made.error();
   Far::TopologyRefiner& refiner = **made;
   Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(level));

@@ -60,6 +60,18 @@ Sdc::Options::FVarLinearInterpolation far_linear(FaceVaryingInterpolation mode) 
   return Sdc::Options::FVAR_LINEAR_ALL;
 }
 
+Sdc::SchemeType far_type(FarScheme scheme) {
+  switch (scheme) {
+    case FarScheme::catmull_clark:
+      return Sdc::SCHEME_CATMARK;
+    case FarScheme::bilinear:
+      return Sdc::SCHEME_BILINEAR;
+    case FarScheme::loop:
+      break;
+  }
+  return Sdc::SCHEME_LOOP;
+}
+
 std::vector<int> as_ints(const std::vector<Index>& indices) { return {indices.begin(), indices.end()}; }
 
 // How many corners every point has: near enough to the number of its edges.
@@ -117,14 +129,15 @@ Result<FarRefiner> create_refiner(const Far::TopologyDescriptor& topology, Sdc::
   return refiner;
 }
 
-Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method, Sdc::SchemeType scheme,
-                                Sdc::Options::TriangleSubdivision triangles) {
+Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method, FarScheme scheme) {
   Sdc::Options rules;  // Far's defaults are not OpenUSD's: set all of them
   rules.SetVtxBoundaryInterpolation(far_boundary(mesh.interpolate_boundary));
   rules.SetFVarLinearInterpolation(far_linear(mesh.face_varying_linear_interpolation));
   rules.SetCreasingMethod(crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
                                                                  : Sdc::Options::CREASE_UNIFORM);
-  rules.SetTriangleSubdivision(triangles);
+  rules.SetTriangleSubdivision(mesh.triangle_subdivision_rule == TriangleRule::smooth
+                                   ? Sdc::Options::TRI_SUB_SMOOTH
+                                   : Sdc::Options::TRI_SUB_CATMARK);
 
   const std::vector<int> counts = mesh.face_vertex_counts.empty() ? std::vector<int>(mesh.face_count(), 3)
                                                                   : as_ints(mesh.face_vertex_counts);
@@ -157,7 +170,7 @@ Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_met
   topology.numFVarChannels = size_of(channels);
   topology.fvarChannels = channels.data();
 
-  return create_refiner(topology, scheme, rules);
+  return create_refiner(topology, far_type(scheme), rules);
 }
 
 }  // namespace subdivd::oracle

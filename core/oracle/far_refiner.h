@@ -9,16 +9,14 @@
 
 #include "core/base/result.h"
 #include "core/mesh/control_mesh.h"
+#include "core/oracle/far_scheme.h"
 
 namespace subdivd::oracle {
 
 using FarRefiner = std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>;
 
 // Not yet refined. Face-varying channels stand in the order of the face-varying primvars.
-Result<FarRefiner> make_refiner(
-    const ControlMesh& mesh, CreaseMethod crease_method,
-    OpenSubdiv::Sdc::SchemeType scheme = OpenSubdiv::Sdc::SCHEME_LOOP,
-    OpenSubdiv::Sdc::Options::TriangleSubdivision triangles = OpenSubdiv::Sdc::Options::TRI_SUB_CATMARK);
+Result<FarRefiner> make_refiner(const ControlMesh& mesh, CreaseMethod crease_method, FarScheme scheme);
 
 // Of any topology; unsupported when Far complains.
 Result<FarRefiner> create_refiner(const OpenSubdiv::Far::TopologyDescriptor& topology,

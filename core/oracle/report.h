@@ -37,16 +37,15 @@ struct Deviation {
   Count excepted = 0;     // values left out for a documented reason, named in `exception`
   std::string exception;  // e.g. "corners of several faces have no common tangent plane"; empty when none
   Verdict verdict = Verdict::nothing_compared;  // max_relative against the tolerance
-  // Where the worst value is; kNoIndex when nothing was compared.
-  Index worst_vertex = kNoIndex, worst_face = kNoIndex;
+  // Where the worst value is; kNoIndex when nothing was compared. Face, corner, u and v as in provenance.h.
+  Index worst_vertex = kNoIndex, worst_face = kNoIndex, worst_corner = 0;
   double worst_u = 0, worst_v = 0;
 };
 
 struct LevelReport {
   Index level = 0;
   bool connectivity_identical = false;
-  Count vertices = 0, triangles = 0;
-  Count quads = 0;  // of surfaces, which have no triangles
+  Count vertices = 0, faces = 0;  // curves have no faces
   std::vector<Deviation> deviations;
 
   // failed, too, when the connectivity differs; nothing_compared without deviations.

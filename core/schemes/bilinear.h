@@ -20,9 +20,7 @@ struct Bilinear {
 
   static std::span<const SchemeOption<Bilinear>> options() { return {}; }
   // See beyond_opensubdiv() of all.h.
-  std::string_view beyond_opensubdiv() const {
-    return "is asked about loop alone by this version: leave out verify";
-  }
+  std::string_view beyond_opensubdiv() const { return {}; }
 
   static EdgeMask edge_mask(const EdgeRing&) { return {}; }
   static VertexMask vertex_mask(const VertexRing&) { return {}; }

@@ -28,9 +28,7 @@ struct CatmullClark {
 
   static std::span<const SchemeOption<CatmullClark>> options() { return {}; }
   // See beyond_opensubdiv() of all.h.
-  std::string_view beyond_opensubdiv() const {
-    return "is asked about loop alone by this version: leave out verify";
-  }
+  std::string_view beyond_opensubdiv() const { return {}; }
 
   // smooth 1/4 (a + b) + 1/4 (f0 + f1), crease or border 1/2 (a + b)      [CatmullClark78]
   // k faces share the faces' weight: 1/2 / k each                         [Far 3.5 for k != 2]

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "proto/json/json.h"
 
@@ -27,6 +28,7 @@ Json worst(const oracle::Deviation& deviation, const std::vector<Index>& faces) 
   if (deviation.worst_face != kNoIndex) {
     const Index face = deviation.worst_face;
     json["face"] = face < faces.size() ? faces[face] : face;
+    if (deviation.worst_corner > 0) json["corner"] = deviation.worst_corner;
     json["u"] = number(deviation.worst_u);
     json["v"] = number(deviation.worst_v);
   }
@@ -62,13 +64,12 @@ Json one_report(const One& one, const std::vector<Index>& faces) {
     Json deviations = Json::array();
     for (const oracle::Deviation& deviation : level.deviations)
       deviations.push_back(deviation_json(deviation, faces));
-    json["levels"].push_back(
-        {{"level", level.level},
-         {"passed", verdict(level.verdict())},
-         {"connectivityIdentical", level.connectivity_identical},
-         {"vertices", level.vertices},
-         {level.quads > 0 ? "quads" : "triangles", level.quads > 0 ? level.quads : level.triangles},
-         {"deviations", std::move(deviations)}});
+    Json& to = json["levels"].emplace_back(Json{{"level", level.level},
+                                                {"passed", verdict(level.verdict())},
+                                                {"connectivityIdentical", level.connectivity_identical},
+                                                {"vertices", level.vertices}});
+    if constexpr (!std::is_same_v<One, oracle::CurveReport>) to["faces"] = level.faces;
+    to["deviations"] = std::move(deviations);
   }
   if (!one.remarks.empty()) json["remarks"] = one.remarks;
   return json;

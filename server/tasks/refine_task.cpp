@@ -169,13 +169,21 @@ Result<proto::Payload> verify(const proto::RefineRequest& request, const proto::
 }
 
 bool self_test() {
-  // An open pyramid with a crease: an inner vertex of valence 5, a border, a semi-sharp edge.
-  constexpr std::string_view kMesh = R"({
-    "points": [[0,0,1], [1,0,0], [0.3,1,0], [-0.8,0.6,0], [-0.8,-0.6,0], [0.3,-1,0]],
-    "faceVertexIndices": [0,1,2, 0,2,3, 0,3,4, 0,4,5, 0,5,1],
-    "creaseIndices": [0,1], "creaseLengths": [2], "creaseSharpnesses": [1.5],
+  // By Loop's scheme an open pyramid with a crease: an inner vertex of valence 5, a border, a semi-sharp
+  // edge. By Catmull and Clark's a cube of quads with a crease, and a house of quads and pentagons whose
+  // ridge is sharp.
+  constexpr std::string_view kMeshes = R"({"meshes": [
+    {"points": [[0,0,1], [1,0,0], [0.3,1,0], [-0.8,0.6,0], [-0.8,-0.6,0], [0.3,-1,0]],
+     "faceVertexIndices": [[0,1,2], [0,2,3], [0,3,4], [0,4,5], [0,5,1]],
+     "creaseIndices": [0,1], "creaseLengths": [2], "creaseSharpnesses": [1.5]},
+    {"points": [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0,0,1], [1,0,1], [1,1,1.2], [0,1,1]],
+     "faceVertexIndices": [[0,3,2,1], [4,5,6,7], [0,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]],
+     "creaseIndices": [4,5,6], "creaseLengths": [3], "creaseSharpnesses": [1.5]},
+    {"points": [[0,0,0], [4,0,0], [4,0,3], [0,0,3], [0,3,0], [4,3,0], [4,3,3], [0,3,3], [0,4.5,1.5], [4,4.5,1.5]],
+     "faceVertexIndices": [[0,1,2,3], [0,4,5,1], [3,2,6,7], [1,5,9,6,2], [0,3,7,8,4], [4,8,9,5], [7,6,9,8]],
+     "creaseIndices": [8,9], "creaseLengths": [2], "creaseSharpnesses": ["infinite"]}],
     "options": {"level": 3, "limit": true, "normals": true}})";
-  const auto decoded = proto::decode_refine(kMesh, proto::BodyKind::json, {}, proto::Limits{});
+  const auto decoded = proto::decode_refine(kMeshes, proto::BodyKind::json, {}, proto::Limits{});
   if (!decoded) return false;
   const auto predicted = proto::predict_refine(*decoded, proto::Limits{});
   if (!predicted) return false;

@@ -23,7 +23,8 @@ Result<proto::AnyAnswer> compute(const proto::RefineRequest& request, const prot
 Result<proto::Payload> verify(const proto::RefineRequest& request, const proto::Limits& limits,
                               const Budget& budget, Phases& phases);
 
-// Sends a small mesh through decoding, refinement and the oracle; false when anything is not as it must be.
+// Sends small meshes, of triangles, of quads and of polygons, through decoding, refinement and the oracle;
+// false when anything is not as it must be.
 bool self_test();
 
 }  // namespace subdivd::server::tasks

@@ -24,7 +24,7 @@ struct Agreement {
   Coverage limits, normals, values;
 };
 
-// Levels 1..level with limits and normals.
+// Levels 1..level with limits and normals; level 0 when that is asked for.
 template <class Real>
 Agreement agreement(const ControlMesh& mesh, CreaseMethod method, Index level);
 

@@ -169,11 +169,10 @@ TEST(schemes_of_meshes, of_quads_are_predicted) {
   }
 }
 
-TEST(schemes_of_meshes, that_are_not_verified_say_so) {
-  const auto refused = answer(cube().dump(), {{"verify", "true"}});
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
-  EXPECT_NE(refused.error().message.find("loop"), std::string::npos) << refused.error().message;
+TEST(schemes_of_meshes, that_opensubdiv_has_may_be_verified) {
+  for (const char* scheme : {"catmullClark", "bilinear"})
+    EXPECT_EQ(refusal(cube().dump(), {{"verify", "true"}, {"subdivisionScheme", scheme}}), "accepted")
+        << scheme;
 }
 
 }  // namespace

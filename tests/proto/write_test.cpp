@@ -182,9 +182,9 @@ oracle::Report report_with_a_failure() {
   oracle::Report report;
   report.oracle = "OpenSubdiv";
   report.meshes.push_back(
-      {"m", "double", {{1, true, 6, 4, 0, {deviation}}}, oracle::Verdict::failed, {"a remark"}});
-  report.curves.push_back({"c", "single", {}, oracle::Verdict::nothing_compared, {}});
-  report.surfaces.push_back({"s", "double", {{2, true, 25, 0, 16, {}}}, oracle::Verdict::passed, {}});
+      {"m", "double", {{1, true, 6, 4, {deviation}}}, oracle::Verdict::failed, {"a remark"}});
+  report.curves.push_back({"c", "single", {{1, true, 5, 0, {}}}, oracle::Verdict::nothing_compared, {}});
+  report.surfaces.push_back({"s", "double", {{2, true, 25, 16, {}}}, oracle::Verdict::passed, {}});
   return report;
 }
 
@@ -196,13 +196,26 @@ TEST(write, a_report_tells_the_worst_place) {
   EXPECT_EQ(deviation["withinTolerance"], false);
   EXPECT_EQ(verification["meshes"][0]["remarks"][0], "a remark");
   EXPECT_EQ(verification["curves"][0]["name"], "c");
-  EXPECT_EQ(verification["surfaces"][0]["levels"][0]["quads"], 16);
-  EXPECT_FALSE(verification["surfaces"][0]["levels"][0].contains("triangles"));
+}
+
+TEST(write, a_report_counts_faces_of_what_has_faces) {
+  const json verification = json::parse(subdivd::proto::json::report(report_with_a_failure()));
+  EXPECT_EQ(verification["meshes"][0]["levels"][0]["faces"], 4);
+  EXPECT_EQ(verification["surfaces"][0]["levels"][0]["faces"], 16);
+  EXPECT_FALSE(verification["curves"][0]["levels"][0].contains("faces"));
+}
+
+TEST(write, a_report_tells_at_which_corner_of_a_polygon_the_worst_place_is) {
+  oracle::Report report = report_with_a_failure();
+  report.meshes[0].levels[0].deviations[0].worst_corner = 3;
+  const json verification = json::parse(subdivd::proto::json::report(report));
+  const json deviation = verification["meshes"][0]["levels"][0]["deviations"][0];
+  EXPECT_EQ(deviation["worst"], json({{"vertex", 4}, {"face", 1}, {"corner", 3}, {"u", 0.5}, {"v", 0.0}}));
 }
 
 // Of six edges that are all semi-sharp no limit can be compared; that was called a pass.
 TEST(write, a_report_does_not_pass_what_was_not_compared) {
-  oracle::LevelReport level{1, true, 10, 16, 0, std::vector<oracle::Deviation>(2)};
+  oracle::LevelReport level{1, true, 10, 16, std::vector<oracle::Deviation>(2)};
   level.deviations[0].compared = 10;
   level.deviations[0].verdict = oracle::Verdict::passed;
   level.deviations[1].excepted = 10;

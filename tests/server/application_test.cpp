@@ -135,6 +135,30 @@ TEST(Application, verifies_against_the_oracle) {
   EXPECT_TRUE(holds(response, "OpenSubdiv"));
   EXPECT_TRUE(holds(response, "\"passed\":true"));
 }
+// A box with a triangle on one side and a pentagon on the other, in every form that has such faces.
+TEST(Application, verifies_quads_and_polygons_of_any_body) {
+  const RunningApplication server;
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0.5 1.5 0\n"
+      "f 1 4 9 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 4 1 5 8\nf 3 9 7\nf 9 4 8 7\n";
+  const std::string off =
+      "OFF\n9 7 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n0.5 1.5 0\n"
+      "5 0 3 8 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 3 0 4 7\n3 2 8 6\n4 8 3 7 6\n";
+  const std::string json =
+      R"({"points":[[0,0,0],[1,0,0],[1,1,0],[0,1,0],[0,0,1],[1,0,1],[1,1,1],[0,1,1],[0.5,1.5,0]],)"
+      R"("faceVertexIndices":[[0,3,8,2,1],[4,5,6,7],[0,1,5,4],[1,2,6,5],[3,0,4,7],[2,8,6],[8,3,7,6]]})";
+  for (const std::string& body : {obj, off, json})
+    for (const char* scheme : {"catmullClark", "bilinear"}) {
+      const std::string query = std::string("?level=2&limit=true&normals=true&subdivisionScheme=") + scheme;
+      const RawResponse report = ask(server.port, post("/v1/verify" + query, body));
+      EXPECT_EQ(report.status, 200) << report.body;
+      EXPECT_TRUE(holds(report, "\"verification\":{\"oracle\":\"OpenSubdiv 3.5.0 Far\",\"passed\":true"))
+          << report.body;
+      EXPECT_TRUE(holds(report, "\"faces\":112")) << report.body;
+      EXPECT_TRUE(holds(ask(server.port, post("/v1/refine" + query + "&verify=true&format=json", body)),
+                        "\"passed\":true"));
+    }
+}
 TEST(Application, attaches_the_report_on_request) {
   const RunningApplication server;
   EXPECT_TRUE(holds(server.refine("?level=1&verify=true"), "OpenSubdiv"));

@@ -214,6 +214,32 @@ ControlMesh with_joined_faces(const ControlMesh& triangles, Index most, std::uin
   return mesh;
 }
 
+ControlMesh with_values(ControlMesh mesh, Index islands, std::uint64_t seed) {
+  Random random(seed);
+  const auto points = static_cast<Index>(mesh.point_count());
+  Primvar st{.name = "st",
+             .interpolation = Interpolation::face_varying,
+             .element_size = 2,
+             .values = {},
+             .indices = {}};
+  for (Index k = 0; k < 2 * islands * points; ++k) st.values.push_back(random.centred());
+  std::size_t corner = 0;
+  Index island = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (random.one_in(3)) island = random.below(islands);
+    for (Index k = 0; k < mesh.face_size(f); ++k)
+      st.indices.push_back(mesh.face_vertex_indices[corner++] + points * island);
+  }
+  mesh.primvars = {plain_primvar(mesh, "constant", Interpolation::constant, 2),
+                   plain_primvar(mesh, "uniform", Interpolation::uniform, 1),
+                   plain_primvar(mesh, "varying", Interpolation::varying, 2),
+                   plain_primvar(mesh, "vertex", Interpolation::vertex, 3),
+                   std::move(st),
+                   unindexed(mesh, "torn", 1)};
+  if (mesh.face_count() > 3) mesh.hole_indices = {random.below(mesh.face_count())};
+  return mesh;
+}
+
 std::vector<NamedShape> polygon_shapes() {
   std::vector<NamedShape> shapes;
   const auto add = [&](const std::string& name, ControlMesh mesh) {

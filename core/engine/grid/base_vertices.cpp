@@ -35,7 +35,8 @@ std::array<Index, 2> BaseVertices<Scheme, Real>::crease_edges(Index v) const {
 }
 
 // Every edge's neighbour in the order of the edges around v, then the crease, then the vertex itself: the
-// order of the plain engine, to the bit. Faces come last.
+// order of the plain engine, to the bit. Faces come before them: their weights are the smallest, and a
+// thousand of them behind a pole's own would each be rounded to its last digit.
 template <class Scheme, class Real>
 void BaseVertices<Scheme, Real>::weigh(Index level, const Real* from, Index v, const VertexMask& mask,
                                        FaceTerm term, Real* out, const Pace& pace) const {
@@ -47,6 +48,22 @@ void BaseVertices<Scheme, Real>::weigh(Index level, const Real* from, Index v, c
     const Real* at = from + point * width_;
     for (Index c = 0; c < width_; ++c) out[c] += static_cast<Real>(weight) * at[c];
   };
+  if constexpr (kHasFacePoints) {
+    if (mask.face != 0) {
+      const Numbering<Quads> numbering(topology, level);
+      for (const Index h : topology.vertex_corners(v)) {
+        pace.spend(4 + width_);
+        if (term == FaceTerm::opposite) {
+          add(mask.face, numbering.opposite(h));
+          continue;
+        }
+        const Index along[2] = {topology.half_edge_edge(h), topology.half_edge_edge(Quads::prev(h))};
+        for (const Count point :
+             {Count{v}, beside(n, along[0], v), Count{numbering.opposite(h)}, beside(n, along[1], v)})
+          add(mask.face / 4, point);
+      }
+    }
+  }
   if (mask.each != 0)
     for (const Index e : edges) {
       pace.spend(1 + width_ / 4);
@@ -55,21 +72,6 @@ void BaseVertices<Scheme, Real>::weigh(Index level, const Real* from, Index v, c
   if (mask.crease != 0)
     for (const Index end : mask.crease_ends) add(mask.crease, beside(n, edges[end], v));
   add(mask.self, v);
-  if constexpr (kHasFacePoints) {
-    if (mask.face == 0) return;
-    const Numbering<Quads> numbering(topology, level);
-    for (const Index h : topology.vertex_corners(v)) {
-      pace.spend(4 + width_);
-      if (term == FaceTerm::opposite) {
-        add(mask.face, numbering.opposite(h));
-        continue;
-      }
-      const Index along[2] = {topology.half_edge_edge(h), topology.half_edge_edge(Quads::prev(h))};
-      for (const Count point :
-           {Count{v}, beside(n, along[0], v), Count{numbering.opposite(h)}, beside(n, along[1], v)})
-        add(mask.face / 4, point);
-    }
-  }
 }
 
 template <class Scheme, class Real>

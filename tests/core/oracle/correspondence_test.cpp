@@ -9,8 +9,7 @@ namespace subdivd::oracle::testing {
 namespace {
 
 Correspondence matched(const Both<double>& both) {
-  return match(OurConnectivity{both.ours.level, both.ours.faces, both.ours.base_faces, both.ours.provenance},
-               both.far, patient());
+  return match(connectivity_of(both.ours, patient()), both.far, patient());
 }
 
 bool identical(const Both<double>& both) { return matched(both).identical; }
@@ -27,7 +26,7 @@ TEST(Correspondence, pairs_every_vertex_once) {
 TEST(Correspondence, pairs_every_triangle_but_those_of_holes) {
   const auto both = both_of(rich_mesh());
   const Correspondence pairs = matched(both);
-  EXPECT_EQ(std::count(pairs.triangles.begin(), pairs.triangles.end(), kNoIndex), 16);
+  EXPECT_EQ(std::count(pairs.faces.begin(), pairs.faces.end(), kNoIndex), 16);
   EXPECT_EQ(both.ours.base_faces.size(), 9u * 16);
 }
 

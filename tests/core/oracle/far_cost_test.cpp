@@ -7,7 +7,8 @@
 #include <string>
 
 #include "core/oracle/verify.h"
-#include "tests/core/oracle/fixtures.h"
+#include "core/refine/plan.h"
+#include "tests/core/oracle/polygon_fixtures.h"
 
 namespace subdivd::oracle::testing {
 namespace {
@@ -161,6 +162,119 @@ TEST(FarCost, takes_many_tiny_components) {
   const auto report = verify<double>(confetti(20000), everything(1), Budget{});
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->verdict, Verdict::passed);
+}
+
+// --- quads and polygons ---
+
+// One face of so many corners, and a triangle at its first edge.
+ControlMesh large_face(Index corners) {
+  ControlMesh mesh;
+  for (Index k = 0; k <= corners; ++k) mesh.points.insert(mesh.points.end(), {1.0 * k, k % 7 / 7.0, 0});
+  mesh.face_vertex_counts = {3, corners};
+  mesh.face_vertex_indices = {1, 0, corners};
+  for (Index k = 0; k < corners; ++k) mesh.face_vertex_indices.push_back(k);
+  mesh.subdivision_scheme = "catmullClark";
+  return mesh;
+}
+
+TEST(FarCost, counts_what_far_searches_of_quads) {
+  const FarLoad fan = load_of(polygon_shape("pole_of_360_quads"));
+  EXPECT_EQ(fan.shape, GridShape::quads);
+  EXPECT_EQ(fan.points, 721u);
+  EXPECT_EQ(fan.edges, 360u + 720);
+  EXPECT_EQ(fan.faces, 360u);
+  EXPECT_EQ(fan.corners, 1440u);
+  EXPECT_EQ(fan.searches, 360u * 360 + 360 * 2 * 3 + 360 * 1 * 2);
+  EXPECT_EQ(fan.corner_searches, 360u * 4 * 4);
+  EXPECT_EQ(fan.busiest_point, 0u);
+  EXPECT_EQ(fan.most_corners, 4u);
+}
+
+TEST(FarCost, counts_what_far_searches_of_polygons) {
+  const FarLoad prism = load_of(polygon_shape("prism_of_7"));
+  EXPECT_EQ(prism.shape, GridShape::corners);
+  EXPECT_EQ(prism.edges, 21u);
+  EXPECT_EQ(prism.corners, 2u * 7 + 7 * 4);
+  EXPECT_EQ(prism.corner_searches, 2u * 7 * 7 + 7 * 4 * 4);
+  EXPECT_EQ(prism.largest_face, 0u);
+  EXPECT_EQ(prism.most_corners, 7u);
+}
+
+// The elements of a level are those that are there.
+TEST(FarCost, predicts_the_refinement_of_quads_and_polygons_by_what_far_makes_of_them) {
+  for (const char* name : {"quad_torus", "prism_of_7", "octahedron"}) {
+    ControlMesh mesh = polygon_shape(name);
+    mesh.subdivision_scheme = "catmullClark";
+    Count elements = 0;
+    for (Index level = 1; level <= 3; ++level) {
+      const auto plan = Plan::build(mesh, {}, Budget{});
+      ASSERT_TRUE(plan.ok());
+      const LevelCounts counts = plan->mesh().lattice()->counts(level);
+      elements += counts.vertices + counts.edges + counts.faces;
+      EXPECT_EQ(far_refine_time(load_of(mesh), level), elements * 60'000) << name;
+    }
+  }
+}
+
+// Far keeps corners in 16 bits.
+TEST(FarCost, refuses_faces_of_more_corners_than_far_counts_and_names_one) {
+  const Error error = refusal(large_face(65536), 1);
+  EXPECT_EQ(error.code, ErrorCode::unsupported);
+  EXPECT_EQ(error.where, (Path{"faceVertexCounts", 1u}));
+  EXPECT_NE(error.message.find("65536"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("65535"), std::string::npos) << error.message;
+  EXPECT_EQ(refusal(large_face(100000), 1).code, ErrorCode::unsupported);
+}
+
+// 65,535 corners took 2.9 s in Create, of which nobody can stop it.
+TEST(FarCost, refuses_a_face_that_far_would_search_for_long_and_names_it) {
+  const Error error = refusal(large_face(65535), 1);
+  EXPECT_EQ(error.code, ErrorCode::too_large);
+  EXPECT_EQ(error.where, (Path{"faceVertexCounts", 1u}));
+  EXPECT_NE(error.message.find("65535"), std::string::npos) << error.message;
+  EXPECT_GT(error.predicted, 1000u);
+}
+
+TEST(FarCost, takes_a_face_of_many_corners) {
+  const auto report = verify<double>(large_face(5000), everything(1), Budget{});
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->verdict, Verdict::passed);
+}
+
+TEST(FarCost, refuses_many_large_faces) {
+  ControlMesh mesh = large_face(20000);
+  const ControlMesh one = mesh;
+  EXPECT_TRUE(check_far_size(one, 1, Budget{}).ok());
+  for (int k = 0; k < 7; ++k) {
+    mesh.face_vertex_counts.push_back(20000);
+    mesh.face_vertex_indices.insert(mesh.face_vertex_indices.end(), one.face_vertex_indices.begin() + 3,
+                                    one.face_vertex_indices.end());
+  }
+  EXPECT_EQ(refusal(mesh, 1).code, ErrorCode::too_large);
+}
+
+TEST(FarCost, refuses_more_quads_than_far_refines_in_one_go) {
+  ControlMesh mesh = polygon_shape("quad_torus");  // 20 quads
+  EXPECT_TRUE(check_far_size(mesh, 8, Budget{}).ok());
+  const Error error = refusal(mesh, 9);
+  EXPECT_EQ(error.code, ErrorCode::too_large);
+  EXPECT_NE(error.message.find("20 faces to level 9"), std::string::npos) << error.message;
+}
+
+TEST(FarCost, refuses_schemes_of_other_names) {
+  ControlMesh mesh = polygon_shape("quad_torus");
+  mesh.subdivision_scheme = "none";
+  EXPECT_EQ(refusal(mesh, 1).where, (Path{"subdivisionScheme"}));
+}
+
+TEST(FarCost, refuses_schemes_that_far_does_not_have) {
+  ControlMesh mesh = shapes::icosahedron();
+  mesh.subdivision_scheme = "butterfly";
+  const Error error = refusal(mesh, 1);
+  EXPECT_EQ(error.code, ErrorCode::unsupported);
+  EXPECT_NE(error.message.find("OpenSubdiv does not know this scheme"), std::string::npos) << error.message;
+  EXPECT_EQ(far_refine<double>(mesh, everything(1), Budget{}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(verify<double>(mesh, everything(1), Budget{}).error().code, ErrorCode::unsupported);
 }
 
 TEST(FarCost, curves_and_surfaces_are_refused_before_they_begin) {

@@ -52,6 +52,31 @@ ControlMesh thicket(Index points, Index faces) {
   return mesh;
 }
 
+// Single faces of `corners` corners.
+ControlMesh polygons(Index corners, Index faces) {
+  ControlMesh mesh;
+  mesh.points.resize(std::size_t{3} * corners * faces);
+  for (std::size_t k = 0; k < mesh.points.size(); ++k) mesh.points[k] = double(k * 7919 % 1000);
+  mesh.face_vertex_counts.assign(faces, corners);
+  mesh.face_vertex_indices.resize(std::size_t{corners} * faces);
+  std::iota(mesh.face_vertex_indices.begin(), mesh.face_vertex_indices.end(), 0u);
+  return mesh;
+}
+
+ControlMesh quad_torus(Index rows, Index columns) {
+  ControlMesh mesh = shapes::torus(rows, columns);
+  mesh.face_vertex_counts.assign(std::size_t{rows} * columns, 4);
+  mesh.face_vertex_indices.clear();
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < columns; ++i) {
+      const Index right = (i + 1) % columns, above = (j + 1) % rows;
+      mesh.face_vertex_indices.insert(
+          mesh.face_vertex_indices.end(),
+          {j * columns + i, j * columns + right, above * columns + right, above * columns + i});
+    }
+  return mesh;
+}
+
 ControlMesh with(ControlMesh mesh, Interpolation interpolation, Index width, int channels) {
   for (int k = 0; k < channels; ++k)
     mesh.primvars.push_back(interpolation == Interpolation::face_varying
@@ -74,6 +99,24 @@ std::vector<Shape> worst_shapes() {
       {"torus_with_uniform_values", with(shapes::big_torus(20, 20, 1), Interpolation::uniform, 30, 2), 3});
   shapes.push_back({"fan", shapes::disk(4000), 2});
   shapes.push_back({"thicket", thicket(600, 3000), 2});
+  // Quads, and faces of other sizes.
+  shapes.push_back({"quad_confetti", polygons(4, 2500), 3});
+  shapes.push_back({"quad_confetti_with_channels", with(polygons(4, 800), varying, 2, 8), 3});
+  shapes.push_back({"pentagons", polygons(5, 1500), 3});
+  shapes.push_back({"large_faces", polygons(500, 20), 3});
+  shapes.push_back({"large_faces_with_channels", with(polygons(500, 8), varying, 2, 8), 2});
+  shapes.push_back({"quad_torus", quad_torus(40, 40), 4});
+  shapes.push_back({"quad_torus_with_channels", with(quad_torus(20, 20), varying, 1, 16), 3});
+  shapes.push_back(
+      {"quad_torus_with_vertex_values", with(quad_torus(20, 20), Interpolation::vertex, 30, 2), 3});
+  shapes.push_back(
+      {"quad_torus_with_uniform_values", with(quad_torus(20, 20), Interpolation::uniform, 30, 2), 3});
+  ControlMesh cut = shapes::big_torus(30, 30, 1);  // triangles that become quads
+  cut.subdivision_scheme = "catmullClark";
+  shapes.push_back({"triangles_into_quads", cut, 3});
+  ControlMesh lonely_quad = polygons(4, 1);
+  lonely_quad.points.resize(300000, 0.5);
+  shapes.push_back({"unreferenced_points_beside_a_quad", lonely_quad, 1});
   ControlMesh lonely = shapes::tetrahedron();
   lonely.points.resize(300000, 0.5);
   shapes.push_back({"unreferenced_points", lonely, 1});

@@ -71,7 +71,7 @@ TEST(VerifySurfaces, passes_a_torus_at_level_five) {
   expect_passes<float>(torus(8, 6), frames(5));
   const SurfaceReport report = verified<double>(torus(8, 6), frames(5));
   EXPECT_EQ(report.levels.back().vertices, 8u * 6 * 1024);
-  EXPECT_EQ(report.levels.back().quads, 8u * 6 * 1024);
+  EXPECT_EQ(report.levels.back().faces, 8u * 6 * 1024);
   EXPECT_EQ(find(report.levels.back(), "normals").compared, 8u * 6 * 1024);
 }
 
@@ -112,7 +112,7 @@ TEST(VerifySurfaces, compares_limits_and_normals_only_when_asked) {
 TEST(VerifySurfaces, compares_quads_whatever_faces_were_asked_for) {
   const ControlPatch patch = hill(CurveWrap::pinned, 4, CurveWrap::periodic, 4);
   for (const PatchFaces faces : {PatchFaces::none, PatchFaces::triangles, PatchFaces::quads})
-    EXPECT_EQ(verified<double>(patch, frames(1, faces)).levels[0].quads, 6u * 8);
+    EXPECT_EQ(verified<double>(patch, frames(1, faces)).levels[0].faces, 6u * 8);
 }
 
 TEST(VerifySurfaces, says_how_it_compared) {
