@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 2> kCreaseMethod = {"uniform", "chaikin"}
 constexpr std::array<std::string_view, 2> kFaces = {"triangles", "quads"};
 constexpr std::array<std::string_view, 2> kPrecision = {"single", "double"};
 constexpr std::array<std::string_view, 2> kWeld = {"exact", "none"};
-constexpr std::array<std::string_view, 3> kFormat = {"json", "glb", "gltf"};
+constexpr std::array<std::string_view, 5> kFormat = {"json", "glb", "gltf", "obj", "off"};
 
 static_assert(kBoundary.size() == static_cast<std::size_t>(BoundaryInterpolation::edge_and_corner) + 1);
 static_assert(kFaceVarying.size() == static_cast<std::size_t>(FaceVaryingInterpolation::all) + 1);
@@ -37,7 +37,7 @@ static_assert(kCreaseMethod.size() == static_cast<std::size_t>(CreaseMethod::cha
 static_assert(kFaces.size() == static_cast<std::size_t>(Faces::quads) + 1);
 static_assert(kPrecision.size() == static_cast<std::size_t>(Precision::double_precision) + 1);
 static_assert(kWeld.size() == static_cast<std::size_t>(Weld::none) + 1);
-static_assert(kFormat.size() == static_cast<std::size_t>(Format::gltf) + 1);
+static_assert(kFormat.size() == static_cast<std::size_t>(Format::off) + 1);
 
 template <class T>
 struct Plain {
@@ -108,13 +108,13 @@ std::vector<OptionSpec> options_of_kinds() { return {
   option<&Options::crease_method>(kWord, "creaseMethod", kCreaseMethod, "uniform", "meshes",
     "How the sharpness of semi-sharp creases decays from level to level."),
   option<&Options::faces>(kWord, "faces", kFaces, "", "surfaces",
-    "What is drawn between the refined points of a B-spline surface. Default: quads in JSON answers, triangles in glTF answers, which know nothing else."),
+    "What is drawn between the refined points of a B-spline surface. Default: quads, and triangles in glTF answers, which know nothing else."),
   option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, surfaces, glTF",
-    "Floating-point type of the computation and of the numbers in a JSON answer. Default: double for JSON answers, single for glTF answers."),
+    "Floating-point type of the computation and of the numbers in answers that are text. Default: single for glTF answers, double for all others."),
   option<&Options::weld>(kWord, "weld", kWeld, "exact", "glTF",
     "exact: vertices of one glTF mesh with bit-identical positions are one point, so seams cannot crack; none: the indices alone decide."),
   option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, surfaces, glTF",
-    "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body."),
+    "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body, and json for OBJ and OFF."),
 }; }
 // clang-format on
 

@@ -1,6 +1,7 @@
 #pragma once
 // An OBJ as it was read, before it is cut into meshes. Indices count from 0 and lie within their arrays.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "proto/wire.h"
 
 namespace subdivd::proto::text {
+
+inline constexpr double kNoColor = std::numeric_limits<double>::quiet_NaN();
 
 // What stands behind one `o`, up to the next; the first has no name, and what stands before any.
 struct ObjObject {
@@ -40,7 +43,7 @@ struct ObjHole {
 
 struct ObjFile {
   std::vector<double> points;     // x y z each
-  std::vector<double> colors;     // r g b of those points that have one, which are colored_points
+  std::vector<double> colors;     // r g b of every point, or kNoColor thrice; empty: no point has one
   std::vector<double> texcoords;  // u v each
   std::vector<Index> face_counts, corner_points;
   std::vector<Index> corner_texcoords;  // kNoIndex: the corner has none
@@ -56,8 +59,8 @@ struct ObjFile {
   bool has_groups = false, has_others = false, has_other_tags = false;
 };
 
-// One mesh for each object with faces, one list of curves for each with lines. Of several meshes each has the
-// points that its faces use, in their order; a mesh alone has them all. Consumes the file.
+// One mesh for each object with faces, one list of curves for each with lines. Of several meshes, and beside
+// curves, each has the points that its faces use, in their order; a mesh alone has them all. Consumes the file.
 Result<RefineRequest> make_meshes(ObjFile file, const Pace& pace);
 
 }  // namespace subdivd::proto::text

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -65,7 +66,6 @@ class MeshMaker {
   MeshMaker(ObjFile file, const Pace& pace) : pace_(pace), file_(std::move(file)) {}
 
   Result<RefineRequest> make() {
-    colored_ = !file_.colors.empty() && file_.colors.size() == file_.points.size();
     Count with_faces = 0, with_lines = 0;
     for (std::size_t i = 0; i < file_.objects.size(); ++i) {
       pace_.spend(4);
@@ -78,7 +78,7 @@ class MeshMaker {
       pace_.spend(64);
       if (line_end(i) > file_.objects[i].first_line) add_curves(i);
     }
-    if (with_faces == 1)
+    if (with_faces == 1 && with_lines == 0)
       add_only_mesh();
     else if (auto made = add_meshes(); !made)
       return std::move(made).error();
@@ -131,6 +131,14 @@ class MeshMaker {
     return mesh;
   }
 
+  // Whether all points have colours.
+  bool is_colored(const std::vector<double>& colors) {
+    Count with = 0;
+    pace_.for_each(colors.size(), [&](Count k) { with += std::isnan(colors[k]) ? 0 : 1; });
+    half_colored_ |= with != 0 && with != colors.size();
+    return with != 0 && with == colors.size();
+  }
+
   // Whether all corners have texture coordinates.
   bool is_textured(std::span<const Index> texcoords) {
     Count with = 0;
@@ -145,7 +153,8 @@ class MeshMaker {
     ControlMesh& mesh = begin_mesh(file_.objects[i].name, std::move(file_.face_counts));
     mesh.points = std::move(file_.points);
     mesh.face_vertex_indices = std::move(file_.corner_points);
-    if (colored_) add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(file_.colors));
+    if (is_colored(file_.colors))
+      add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(file_.colors));
     if (is_textured(file_.corner_texcoords))
       add_primvar(mesh, "st", Interpolation::face_varying, 2, std::move(file_.texcoords),
                   std::move(file_.corner_texcoords));
@@ -191,7 +200,9 @@ class MeshMaker {
     ControlMesh& mesh = begin_mesh(object.name, std::move(counts));
     mesh.points = points.rows(file_.points, 3);
     mesh.face_vertex_indices = points.numbered(used);
-    if (colored_) add_primvar(mesh, "displayColor", Interpolation::vertex, 3, points.rows(file_.colors, 3));
+    if (!file_.colors.empty())
+      if (auto colors = points.rows(file_.colors, 3); is_colored(colors))
+        add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(colors));
     if (!is_textured(used_texcoords)) return;
     texcoords.select(used_texcoords, static_cast<Index>(i));
     add_primvar(mesh, "st", Interpolation::face_varying, 2, texcoords.rows(file_.texcoords, 2),
@@ -235,8 +246,8 @@ class MeshMaker {
       warnings_.emplace_back(
           "points, free-form curves and surfaces and what tells how to render are left out.");
     if (file_.has_other_tags) warnings_.emplace_back("tags of hierarchical edits are left out.");
-    if (!file_.colors.empty() && !colored_)
-      warnings_.emplace_back("colours of points are left out: not all points have one.");
+    if (half_colored_)
+      warnings_.emplace_back("colours of points are left out: not all points of the mesh have one.");
     if (half_textured_)
       warnings_.emplace_back(
           "texture coordinates of meshes that have them at some corners only are left out.");
@@ -244,7 +255,7 @@ class MeshMaker {
 
   const Pace& pace_;
   ObjFile file_;
-  bool colored_ = false, half_textured_ = false;
+  bool half_colored_ = false, half_textured_ = false;
   std::size_t crease_ = 0, corner_ = 0, hole_ = 0;
   std::vector<ControlMesh> meshes_;
   std::vector<ControlCurves> curves_;
