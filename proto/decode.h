@@ -39,8 +39,8 @@ Result<RefineRequest> read_refine(std::string_view body, BodyKind kind, const Qu
 Result<void> make_ready(RefineRequest& request, const QueryParameters& query, const Limits& limits,
                         const Budget& budget = {});
 
-// Whether the answer's format has a place for all that is asked for (unsupported): an OFF has none for curves, OBJ and
-// OFF for the report of `verify`. To be asked before an answer is made, when the format has been chosen.
+// Whether the answer's format has a place for all that is asked for (unsupported): an OFF has none for curves, OBJ
+// and OFF none for the report of `verify`. To be asked before an answer is made, when the format has been chosen.
 Result<void> check_format(const RefineRequest& request, const QueryParameters& query);
 
 // Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for

@@ -9,6 +9,9 @@
 
 namespace subdivd::proto {
 
+// Numbers that stand for names may be refined as floats: beyond this, not all of them are there.
+inline constexpr Count kMostNames = Count{1} << 24;
+
 class NameList {
  public:
   void add(std::string_view name) {

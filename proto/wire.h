@@ -103,6 +103,7 @@ struct RefineRequest {
   std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
   // For every mesh and primvar the names that its whole numbers stand for, if any; either list may be shorter.
   std::vector<std::vector<NameList>> primvar_names;
+  NameList material_libraries;  // that an OBJ names, for an answer in its format
   // JSON only
   bool single_mesh_at_top = false, single_curve_at_top = false, single_surface_at_top = false;
   bool without_meshes = false;  // the door takes none, and its answers name none

@@ -160,6 +160,9 @@ std::vector<std::string> warnings(const RefineRequest& request, bool refined) {
   if (refined && request.input != Format::json && !is_gltf(answer_format(request)))
     texts.emplace_back(
         "the answer holds geometry only: nodes, materials, textures and animations of the glTF are left out");
+  if (refined && !request.material_libraries.empty() && answer_format(request) != Format::obj)
+    texts.emplace_back(
+        "the names of the OBJ's material libraries are left out; an answer of format obj has them");
   if (!request.surfaces.empty() && request.options.faces == Faces::quads &&
       answer_faces(request) != Faces::quads)
     texts.emplace_back(

@@ -18,6 +18,9 @@ Count name_text(const std::string& name) { return 6 * Count{name.size()} + 2; }
 Count tuples_text(Count tuples, Count width, Count number) { return tuples * (width * number + 2) + 2; }
 Count indices_text(Count count, Count values) { return count * (digits_of(values) + 1) + 2; }
 
+// Quoted, escaped and with commas.
+Count names_text(const NameList& names) { return 6 * names.text_size() + 3 * names.size(); }
+
 Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, bool normals) {
   const Count vertices = size.counts.vertices, faces = size.counts.faces, corners = size.corners;
   Count bytes = kMemberText + name_text(mesh.name) + tuples_text(vertices, 3, number) + 2 * faces +
@@ -112,8 +115,11 @@ Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSiz
       answer_precision(request) == Precision::single_precision ? kRealText<float> : kRealText<double>;
   const bool normals = request.options.normals;
   Count bytes = predicted_envelope_bytes(request) + 64;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
     bytes += mesh_text(request.meshes[i], meshes[i], number, normals);
+    if (i < request.primvar_names.size())
+      for (const NameList& names : request.primvar_names[i]) bytes += names_text(names);
+  }
   for (const ControlCurves& curves : request.curves)
     bytes += curves_text(curves, request.options.level, number, normals);
   for (const ControlPatch& surface : request.surfaces)

@@ -7,7 +7,7 @@
 
 #include "core/base/index.h"
 #include "core/base/pace.h"
-#include "proto/text/sections.h"
+#include "proto/text/labels.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto::text {
@@ -28,8 +28,5 @@ struct Carried {
 
 // `format`: obj or off. An OFF is one mesh: it has what all its parts have.
 Carried what_is_carried(const RefineRequest& request, Format format, const Pace& pace);
-
-// The words by which primvars are found.
-inline constexpr std::array<const char*, kLabelKinds> kLabelPrimvars = {"group", "material"};
 
 }  // namespace subdivd::proto::text

@@ -1,6 +1,7 @@
 #pragma once
 // An OBJ as it was read, before it is cut into meshes. Indices count from 0 and lie within their arrays.
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 #include "core/base/pace.h"
 #include "core/base/result.h"
 #include "core/mesh/cage.h"
+#include "proto/name_list.h"
+#include "proto/text/labels.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto::text {
@@ -21,6 +24,12 @@ inline constexpr double kNoColor = std::numeric_limits<double>::quiet_NaN();
 struct ObjObject {
   std::string_view name;  // in the body
   Count first_face = 0, first_corner = 0, first_line = 0, first_line_point = 0;
+};
+
+// The faces from here on have this group, or this material; none where the name is empty.
+struct ObjLabel {
+  std::string_view name;  // a rest() of a line of the body
+  Count first_face;
 };
 
 struct ObjCrease {
@@ -48,7 +57,9 @@ struct ObjFile {
   std::vector<Index> face_counts, corner_points;
   std::vector<Index> corner_texcoords;  // kNoIndex: the corner has none
   std::vector<Index> line_counts, line_points;
-  std::vector<ObjObject> objects;  // at least one
+  std::vector<ObjObject> objects;                         // at least one
+  std::array<std::vector<ObjLabel>, kLabelKinds> labels;  // in the order of the body
+  NameList material_libraries;
   std::vector<ObjCrease> creases;  // tags in the order of the body, and so of objects
   std::vector<ObjCorner> corners;
   std::vector<ObjHole> holes;

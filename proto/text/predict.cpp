@@ -5,6 +5,7 @@
 #include "core/curves/subdivision.h"
 #include "proto/json/number_text.h"
 #include "proto/text/carried.h"
+#include "proto/text/sections.h"
 #include "proto/text/text_cursor.h"
 #include "proto/text/write.h"
 
@@ -32,6 +33,9 @@ class Prediction {
     text_.bytes = kHeadText;
     for (const std::string& warning : request_.warnings) text_.bytes += warning.size() + 3;
     for (const std::string& warning : carried.warnings) text_.bytes += warning.size() + 3;
+    const NameList& libraries = request_.material_libraries;
+    if (obj_) text_.bytes += libraries.text_size() + 8 * libraries.size();
+    text_.held_bytes += 4 * (libraries.text_size() + 8 * libraries.size());
     for (std::size_t i = 0; i < request_.meshes.size(); ++i) add_mesh(i, carried.meshes[i], sizes[i]);
     for (const ControlCurves& curves : request_.curves) add_curves(curves);
     for (const ControlPatch& surface : request_.surfaces) add_surface(surface);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ std::string number(Count n) { return std::to_string(n); }
 struct ObjCounts {
   Count points = 0, colored_points = 0, texcoords = 0, normals = 0;
   Count faces = 0, corners = 0, lines = 0, line_points = 0, objects = 1, tag_words = 0;
+  std::array<Count, kLabelKinds> labels = {};
+  Count libraries = 0, library_bytes = 0;
 
   Count bytes() const {
     constexpr Count kPoint = 3 * sizeof(double), kTexcoord = 2 * sizeof(double);
@@ -33,6 +36,12 @@ struct ObjCounts {
     sum += (2 * corners + faces + line_points + 2 * lines) * sizeof(Index) + line_points * kPoint;
     // Integers, numbers and what is kept of them, in arrays that grow.
     sum += tag_words * 4 * sizeof(ObjCrease);
+    // For every line itself, its place in an order, which name it has and where that is in a mesh, and for every
+    // face the name's number. Names are taken when it is known in how many meshes they stand.
+    for (const Count lines_of_kind : labels)
+      if (lines_of_kind > 0)
+        sum += (lines_of_kind + 1) * (sizeof(ObjLabel) + 5 * sizeof(Index)) + faces * sizeof(double);
+    sum += libraries * sizeof(Count) + library_bytes;
     if (objects == 1 && lines == 0) return sum;
     // Of several meshes each has its own arrays, and no more points than corners; so has one beside curves.
     sum += (2 * corners + faces) * sizeof(Index) + corners * (2 * kPoint + kTexcoord + 2 * sizeof(Index));
@@ -63,6 +72,13 @@ ObjCounts count_lines(std::string_view body, const Pace& pace) {
       counts.line_points += cursor.skip_words();
     } else if (word == "o") {
       ++counts.objects;
+      cursor.rest();
+    } else if (word == "g" || word == "usemtl") {
+      ++counts.labels[word == "g" ? kGroup : kMaterial];
+      cursor.rest();
+    } else if (word == "mtllib") {
+      ++counts.libraries;
+      counts.library_bytes += cursor.rest().size();
     } else if (word == "t") {
       counts.tag_words += cursor.skip_words();
     }
@@ -83,6 +99,8 @@ class ObjReader {
     while (cursor_.next_line())
       if (!read_line(cursor_.word())) break;
     if (cursor_.failed()) return cursor_.error();
+    // Indices were compared with what was counted.
+    assert(file_.points.size() == 3 * counts_.points && file_.texcoords.size() == 2 * counts_.texcoords);
     if (file_.face_counts.empty() && file_.line_counts.empty())
       return Error{ErrorCode::missing_field,
                    "the OBJ has neither faces (f) nor lines (l): there is nothing to do"};
@@ -101,6 +119,12 @@ class ObjReader {
     file_.line_points.reserve(counts_.line_points);
     file_.objects.reserve(counts_.objects);
     file_.objects.emplace_back();
+    for (std::size_t kind = 0; kind < kLabelKinds; ++kind) {
+      if (counts_.labels[kind] == 0) continue;
+      file_.labels[kind].reserve(counts_.labels[kind] + 1);
+      file_.labels[kind].push_back({{}, 0});
+    }
+    file_.material_libraries.reserve(counts_.libraries, counts_.library_bytes);
   }
 
   // What is not read is not looked at either: the next line is.
@@ -112,6 +136,9 @@ class ObjReader {
     if (word == "l") return read_polyline();
     if (word == "o") return begin_object();
     if (word == "t") return read_obj_tag(cursor_, counts_.points, counts_.faces, file_);
+    if (word == "g") return add_label(kGroup);
+    if (word == "usemtl") return add_label(kMaterial);
+    if (word == "mtllib") return add_library();
     if (is_among(word, kObjGroupWords)) return file_.has_groups = true;
     if (is_among(word, kOtherObjWords)) return file_.has_others = true;
     return cursor_.fail(ErrorCode::malformed, in_quotes(word) + " begins no line of an OBJ");
@@ -220,6 +247,16 @@ class ObjReader {
                           "a line of " + number(count) + " points; it has 2 or more");
     file_.line_counts.push_back(count);
     return true;
+  }
+
+  bool add_label(LabelKind kind) {
+    file_.labels[kind].push_back({cursor_.rest(), file_.face_counts.size()});
+    return !cursor_.failed();
+  }
+
+  bool add_library() {
+    file_.material_libraries.add(joined_line(cursor_.rest()));
+    return !cursor_.failed();
   }
 
   bool begin_object() {

@@ -18,8 +18,9 @@ namespace {
 
 constexpr Count kPiece = Count{160} << 10;  // what the processor's cache holds, and what is sent at once
 constexpr Count kKept = Count{1} << 20;     // a text of no more is kept rather than made twice
-// What is written without a look at the room that is left: a row of 16 numbers, the names of a face, a corner.
-constexpr std::ptrdiff_t kRoom = 2 * (kMaxWordBytes + 16) + 1024, kCornerRoom = 96;
+// What is written without a look at the room that is left: a corner and what ends its line; a row of 16 numbers, or
+// the names of a face and its first corner, for what begins a line is not written twice.
+constexpr std::ptrdiff_t kCornerRoom = 512, kRoom = 2 * (kMaxWordBytes + 16) + 2 * kCornerRoom;
 
 char* put(char* at, std::string_view text) {
   std::memcpy(at, text.data(), text.size());
@@ -92,7 +93,7 @@ class Walk {
         at = obj ? put(at, "f") : json::print_number(at, size);
       }
       for (; corner_ < size; ++corner_, ++place_) {
-        if (end - at < kRoom) return false;
+        if (end - at < kCornerRoom) return false;
         at = obj ? put_corner(at, faces) : put_number(at, ' ', faces.first_point + faces.points[place_]);
       }
       *at++ = faces.color.values != nullptr ? ' ' : '\n';

@@ -14,6 +14,7 @@
 #include "core/base/index.h"
 #include "core/base/result.h"
 #include "proto/name_list.h"
+#include "proto/text/labels.h"
 #include "proto/wire.h"
 
 namespace subdivd::proto::text {
@@ -40,8 +41,6 @@ struct Labels {
   const Real* numbers = nullptr;  // one per face, whole; null: no face has a name
   const NameList* names = nullptr;
 };
-
-enum LabelKind { kGroup, kMaterial, kLabelKinds };
 
 // One line for each face. An OBJ's has its corners' points, texture coordinates and normals, an OFF's their
 // number, points and the face's colour.
@@ -77,8 +76,8 @@ struct Document {
   Count held_bytes = 0;                                  // of all of it
 };
 
-// Walks through the whole text once: it is as long as numbers are. Short texts are kept, others are made again while
-// they are sent. Refuses (not_finite) numbers that are not finite.
+// Walks through the whole text once: it is as long as numbers are. Short texts are kept, others are made again
+// while they are sent. Refuses (not_finite) numbers that are not finite.
 template <class Real>
 Result<Chunk> make_chunk(std::unique_ptr<const Document<Real>> document, const Budget& budget);
 

@@ -146,7 +146,13 @@ std::string_view TextCursor::word() {
 std::string_view TextCursor::rest() {
   if (failed_) return {};
   const char* begin = at_;
-  skip_to_end_of_line();
+  for (;;) {
+    skip_to_end_of_line();
+    const char* const mark = at_ - (at_ > begin && at_[-1] == '\r' ? 2 : 1);
+    if (!continues_ || at_ == end_ || mark < begin || *mark != '\\') break;
+    ++at_;
+    ++line_;
+  }
   const char* stop = at_;
   for (; begin < stop && is_blank(*begin); ++begin) pace_.spend(1);
   for (; stop > begin && is_blank(stop[-1]); --stop) pace_.spend(1);
@@ -154,6 +160,23 @@ std::string_view TextCursor::rest() {
   if (name.size() <= kMaxWordBytes) return name;
   fail(ErrorCode::too_large, "a name has more than " + std::to_string(kMaxWordBytes) + " characters");
   return {};
+}
+
+std::string joined_line(std::string_view rest) {
+  std::string line;
+  line.reserve(rest.size());
+  for (std::size_t at = 0; at < rest.size();) {
+    const std::size_t end = std::min(rest.find('\n', at), rest.size());
+    std::string_view part = rest.substr(at, end - at);
+    at = end + 1;
+    if (end < rest.size()) {
+      if (part.ends_with('\r')) part.remove_suffix(1);
+      part.remove_suffix(1);  // the backslash
+    }
+    line += part;
+    if (end < rest.size()) line += ' ';
+  }
+  return line;
 }
 
 Count TextCursor::count_words() const {

@@ -34,7 +34,8 @@ class TextCursor {
   bool next_number(std::string_view what, double& out);
   // Words left in the line; it is behind them then. A word may have any length.
   Count skip_words();
-  // What is left of the line, without blanks around it, '#' being a letter. A continued line ends there.
+  // What is left of the line, without blanks around it, '#' being a letter; where the line is continued, with
+  // the marks of that (joined_line() takes them out).
   std::string_view rest();
   // Words left in the text, comments included.
   Count count_words() const;
@@ -67,6 +68,9 @@ class TextCursor {
   Count line_ = 1;
   Error error_;
 };
+
+// A rest() that may run over several lines, as one line.
+std::string joined_line(std::string_view rest);
 
 // Whether a word has nothing but digits, and a sign before them.
 bool is_whole(std::string_view word);

@@ -92,6 +92,15 @@ class DocumentMaker {
     return text;
   }
 
+  std::string libraries() const {
+    std::string text;
+    for (Count k = 0; k < request_.material_libraries.size(); ++k) {
+      pace_.spend(4 + request_.material_libraries[k].size());
+      text.append("mtllib ").append(line_text(request_.material_libraries[k])).append("\n");
+    }
+    return text;
+  }
+
   static Column<Real> positions(const Buffer<Real>& points, Index width) {
     return {points.data(), width, std::min<Index>(width, 3), 3 - std::min<Index>(width, 3)};
   }
@@ -117,7 +126,7 @@ class DocumentMaker {
   // ----- OBJ: one object for each part, numbers from 1 over the whole file -----
 
   void make_obj(const std::vector<std::string>& warnings) {
-    add(comments(warnings));
+    add(comments(warnings) + libraries());
     const Count parts = answer().meshes.size() + answer().curves.size() + answer().surfaces.size();
     alone_ = parts == 1;
     for (std::size_t i = 0; i < answer().meshes.size(); ++i) add_obj_mesh(i);

@@ -19,8 +19,8 @@ struct PredictedText {
 Result<PredictedText> predict(const RefineRequest& request, const std::vector<RefinedSize>& meshes,
                               const Budget& budget);
 
-// `warnings`: sentences that become comments, at the top or, of an OFF, behind its first word. Meshes stand first, then
-// curves, then surfaces, in the order of the request. An OFF has no lines: curves are refused (unsupported).
+// `warnings`: sentences that become comments, at the top or, of an OFF, behind its first word. Meshes stand first,
+// then curves, then surfaces, in the order of the request. An OFF has no lines: curves are refused (unsupported).
 Result<Payload> write(const RefineRequest& request, AnyAnswer answer, std::vector<std::string> warnings,
                       const Budget& budget);
 
