@@ -72,8 +72,7 @@ class Cutter {
 }  // namespace
 
 bool cuts_faces(const RefineRequest& request) {
-  const Format format = answer_format(request);
-  return request.options.faces == Faces::triangles && format != Format::glb && format != Format::gltf;
+  return request.options.faces == Faces::triangles && !is_gltf(answer_format(request));
 }
 
 RefinedSize cut_size(RefinedSize size) {

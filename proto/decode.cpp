@@ -12,6 +12,7 @@
 #include "proto/prepare.h"
 #include "proto/text/kind.h"
 #include "proto/text/text.h"
+#include "proto/text/write.h"
 
 namespace subdivd::proto {
 namespace {
@@ -148,19 +149,56 @@ Result<void> cut_all(AnyAnswer& answer, const Budget& budget) {
       answer);
 }
 
+// Of the text or binary that will be sent, and of what is held of it.
+Result<text::PredictedText> predict_answer(const RefineRequest& request,
+                                           const std::vector<RefinedSize>& sizes, const Budget& budget) {
+  const Format format = answer_format(request);
+  if (is_text(format)) return text::predict(request, sizes, budget);
+  const Result<Count> bytes = format == Format::json ? Result<Count>(json::predicted_bytes(request, sizes))
+                                                     : gltf::predicted_bytes(request, sizes, budget);
+  if (!bytes) return bytes.error();
+  return text::PredictedText{*bytes, *bytes};
+}
+
+Error no_place_for(std::string message, std::string_view option, const QueryParameters& query) {
+  const bool in_query = std::ranges::any_of(query, [&](const auto& one) { return one.first == option; });
+  return {.code = ErrorCode::unsupported,
+          .message = std::move(message),
+          .where = in_query ? Path{"?" + std::string(option)} : Path{}};
+}
+
 }  // namespace
+
+Result<void> check_format(const RefineRequest& request, const QueryParameters& query) {
+  const Format format = answer_format(request);
+  if (!is_text(format)) return {};
+  if (request.options.verify)
+    return no_place_for(
+        "OBJ and OFF have no place for the report of verify; take format json, or ask /v1/verify for it "
+        "alone",
+        "verify", query);
+  if (format == Format::off && !request.curves.empty())
+    return no_place_for("an OFF holds faces and no curves; take format obj, json, glb or gltf", "format",
+                        query);
+  return {};
+}
 
 bool is_glb(std::string_view body) { return body.starts_with(kGlbMagic); }
 
-Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
-                                    const Limits& limits, const Budget& budget) {
+Result<RefineRequest> read_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                  const Limits& limits, const Budget& budget) {
   if (body.size() > limits.max_body_bytes)
     return Error{.code = ErrorCode::too_large,
                  .message = std::string("the body has ") + std::to_string(body.size()) + " bytes; " +
                             std::to_string(limits.max_body_bytes) + " are allowed",
                  .predicted = body.size(),
                  .allowed = limits.max_body_bytes};
-  Result<RefineRequest> request = read_any(body, kind, query, limits, budget);
+  return read_any(body, kind, query, limits, budget);
+}
+
+Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                    const Limits& limits, const Budget& budget) {
+  Result<RefineRequest> request = read_refine(body, kind, query, limits, budget);
   if (!request) return request;
   if (Result<void> ready = make_ready(*request, query, limits, budget); !ready) return ready.error();
   return request;
@@ -171,7 +209,7 @@ Result<void> make_ready(RefineRequest& request, const QueryParameters& query, co
   override_meshes(request);
   if (Result<void> fine = check_options(request, limits, query, budget); !fine) return fine;
   if (Result<void> fine = prepare(request, budget); !fine) return fine;
-  if (answer_format(request) == Format::json) return {};
+  if (!is_gltf(answer_format(request))) return {};
   return gltf::add_render_meshes(request, budget);
 }
 
@@ -192,11 +230,10 @@ Result<Prediction> predict_refine(const RefineRequest& request, const Limits& li
                                     : working_bytes<double>(request, prediction.plans, sizes, budget);
   if (!working) return working.error();
   prediction.working_bytes = *working;
-  const Result<Count> answer = answer_format(request) == Format::json
-                                   ? Result<Count>(json::predicted_bytes(request, sizes))
-                                   : gltf::predicted_bytes(request, sizes, budget);
+  const auto answer = predict_answer(request, sizes, budget);
   if (!answer) return answer.error();
-  prediction.answer_bytes = *answer;
+  prediction.answer_bytes = answer->bytes;
+  prediction.held_bytes = answer->held_bytes;
   if (prediction.answer_bytes > limits.max_output_bytes)
     return Error{.code = ErrorCode::too_large,
                  .message = std::string("the answer would take up to ") +
@@ -213,6 +250,10 @@ Result<Payload> encode_refine(const RefineRequest& request, AnyAnswer answer, co
   if (cuts_faces(request))
     if (auto cut = cut_all(answer, budget); !cut) return cut.error();
   if (format == Format::json) return json::write(request, std::move(answer), budget);
+  if (is_text(format)) {
+    if (auto fine = check_format(request, {}); !fine) return std::move(fine).error();
+    return text::write(request, std::move(answer), json::answer_warnings(request), budget);
+  }
   const Result<std::string> members = json::envelope(request, answer, budget);
   if (!members) return members.error();
   return gltf::write(request, std::move(answer), format, *members, budget);

@@ -30,16 +30,26 @@ using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 Result<RefineRequest> decode_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
                                     const Limits& limits, const Budget& budget = {});
 
+// The first step: what the body and the query say, not checked yet.
+Result<RefineRequest> read_refine(std::string_view body, BodyKind kind, const QueryParameters& query,
+                                  const Limits& limits, const Budget& budget = {});
+
 // The last step of reading: checks the options against the limits and each other (`query` tells who is to
 // blame), lets them override what the meshes say, repairs what may be repaired and checks everything.
 Result<void> make_ready(RefineRequest& request, const QueryParameters& query, const Limits& limits,
                         const Budget& budget = {});
 
-// Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for the JSON
+// Whether the answer's format has a place for all that is asked for (unsupported): an OFF has none for curves, OBJ
+// and OFF none for the report of `verify`. To be asked before an answer is made, when the format has been chosen.
+Result<void> check_format(const RefineRequest& request, const QueryParameters& query);
+
+// Size of the answer, known before any refinement: exact for GLB binary data, an upper bound for
 // text. Refuses what exceeds the limits (too_large with predicted and allowed).
 struct Prediction {
   std::vector<Plan> plans;  // of the meshes: what it follows from, and what they are to be refined by
   Count answer_bytes = 0;   // of the body that will be sent (upper bound)
+  Count held_bytes =
+      0;  // of them in memory, beside the core's arrays: OBJ and OFF are made while they are sent
   Count working_bytes = 0;  // of the arrays of the core, and what it needs beside them, plans included
   Count taken_bytes = 0;    // of both together: taken from the budget already, for the plans
 };

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 2> kCreaseMethod = {"uniform", "chaikin"}
 constexpr std::array<std::string_view, 2> kFaces = {"triangles", "quads"};
 constexpr std::array<std::string_view, 2> kPrecision = {"single", "double"};
 constexpr std::array<std::string_view, 2> kWeld = {"exact", "none"};
-constexpr std::array<std::string_view, 3> kFormat = {"json", "glb", "gltf"};
+constexpr std::array<std::string_view, 5> kFormat = {"json", "glb", "gltf", "obj", "off"};
 
 static_assert(kBoundary.size() == static_cast<std::size_t>(BoundaryInterpolation::edge_and_corner) + 1);
 static_assert(kFaceVarying.size() == static_cast<std::size_t>(FaceVaryingInterpolation::all) + 1);
@@ -37,7 +37,7 @@ static_assert(kCreaseMethod.size() == static_cast<std::size_t>(CreaseMethod::cha
 static_assert(kFaces.size() == static_cast<std::size_t>(Faces::quads) + 1);
 static_assert(kPrecision.size() == static_cast<std::size_t>(Precision::double_precision) + 1);
 static_assert(kWeld.size() == static_cast<std::size_t>(Weld::none) + 1);
-static_assert(kFormat.size() == static_cast<std::size_t>(Format::gltf) + 1);
+static_assert(kFormat.size() == static_cast<std::size_t>(Format::off) + 1);
 
 template <class T>
 struct Plain {
@@ -108,15 +108,15 @@ std::vector<OptionSpec> options_of_kinds() { return {
   option<&Options::crease_method>(kWord, "creaseMethod", kCreaseMethod, "uniform", "meshes",
     "How the sharpness of semi-sharp creases decays from level to level."),
   option<&Options::faces>(kWord, "faces", kFaces, "", "meshes, surfaces",
-    "triangles: cut quads and larger faces into triangles from their first corner; quads: the faces that the scheme makes, which must not be triangles, and quads between the refined points of B-spline surfaces. Default: quads where there are any in JSON answers, triangles in glTF answers, which know nothing else."),
+    "triangles: cut quads and larger faces into triangles from their first corner; quads: the faces that the scheme makes, which must not be triangles, and quads between the refined points of B-spline surfaces. Default: quads where there are any, triangles in glTF answers, which know nothing else."),
   option<&Options::ngons>(kBoolean, "ngons", {}, "false", "meshes, glTF",
     "glTF answers only: mark which triangles make a quad or a larger face, by the extension FB_ngon_encoding."),
   option<&Options::precision>(kWord, "precision", kPrecision, "", "meshes, curves, surfaces, glTF",
-    "Floating-point type of the computation and of the numbers in a JSON answer. Default: double for JSON answers, single for glTF answers."),
+    "Floating-point type of the computation and of the numbers in answers that are text. Default: single for glTF answers, double for all others."),
   option<&Options::weld>(kWord, "weld", kWeld, "exact", "glTF",
     "exact: vertices of one glTF mesh with bit-identical positions are one point, so seams cannot crack; none: the indices alone decide."),
   option<&Options::format>(kWord, "format", kFormat, "", "meshes, curves, surfaces, glTF",
-    "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body."),
+    "Format of the answer. Default: what the Accept header prefers, otherwise the kind of the body, and json for OBJ and OFF."),
 }; }
 // clang-format on
 
@@ -360,8 +360,7 @@ Result<void> check_options(const RefineRequest& request, const Limits& limits, c
                  .where = blame("level", query),
                  .predicted = options.level,
                  .allowed = limits.max_level};
-  const Format format = answer_format(request);
-  if (options.ngons && format != Format::glb && format != Format::gltf)
+  if (options.ngons && !is_gltf(answer_format(request)))
     return Error{
         ErrorCode::unsupported,
         "ngons marks larger faces in glTF answers, which hold nothing but triangles; this answer has them as "

@@ -241,9 +241,9 @@ Error blame(const RefineRequest& request, Error error, const char* of, std::size
   return error;
 }
 
-// glTF knows counter-clockwise faces only: a mesh that is left-handed is made right-handed for it. In JSON it
-// keeps its faces, and the numbers of what is refined with them.
-Result<void> turn_for_gltf(RefineRequest& request, std::size_t i, const Budget& budget) {
+// glTF, OBJ and OFF know counter-clockwise faces only: a mesh that is left-handed is made right-handed for them. In
+// JSON it keeps its faces, and the numbers of what is refined with them.
+Result<void> turn_for_others(RefineRequest& request, std::size_t i, const Budget& budget) {
   if (i >= request.mesh_forms.size() || answer_format(request) == Format::json) return {};
   Orientation& orientation = request.mesh_forms[i].orientation;
   if (std::exchange(orientation, Orientation::right_handed) == Orientation::right_handed) return {};
@@ -259,7 +259,7 @@ Result<void> prepare_mesh(RefineRequest& request, std::size_t i, const Budget& b
                ? check_magnitudes<float>(request.meshes[i], budget)
                : check_magnitudes<double>(request.meshes[i], budget);
   if (!fine) return blame(request, std::move(fine).error(), "meshes", i, history);
-  if (auto turned = turn_for_gltf(request, i, budget); !turned) return turned;
+  if (auto turned = turn_for_others(request, i, budget); !turned) return turned;
   if (history.changed()) {
     request.face_origins.resize(request.meshes.size());
     request.face_origins[i] = history.original_faces();

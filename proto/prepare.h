@@ -12,7 +12,7 @@
 namespace subdivd::proto {
 
 // Triangulates (when the options say so), drops degenerate faces with a warning, checks every mesh, curve and
-// surface. Left-handed meshes become right-handed where the answer is glTF.
+// surface. Left-handed meshes become right-handed unless the answer is JSON.
 // Fills face_origins.
 Result<void> prepare(RefineRequest& request, const Budget& budget);
 

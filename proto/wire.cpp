@@ -4,25 +4,47 @@
 
 namespace subdivd::proto {
 
+std::string_view media_type(Format format) {
+  switch (format) {
+    case Format::json:
+      return "application/json";
+    case Format::glb:
+      return "model/gltf-binary";
+    case Format::gltf:
+      return "model/gltf+json";
+    case Format::obj:
+      return "model/obj";
+    case Format::off:
+      return "text/plain; charset=utf-8";
+  }
+  return {};
+}
+
 Format answer_format(const RefineRequest& request) { return request.options.format.value_or(request.input); }
 
 Precision answer_precision(const RefineRequest& request) {
-  const bool json = answer_format(request) == Format::json;
-  return request.options.precision.value_or(json ? Precision::double_precision : Precision::single_precision);
+  const bool gltf = is_gltf(answer_format(request));
+  return request.options.precision.value_or(gltf ? Precision::single_precision : Precision::double_precision);
 }
 
 Faces answer_faces(const RefineRequest& request) {
-  if (answer_format(request) != Format::json) return Faces::triangles;
+  if (is_gltf(answer_format(request))) return Faces::triangles;
   return request.options.faces.value_or(Faces::quads);
+}
+
+const NameList& names_of(const RefineRequest& request, std::size_t mesh, std::size_t primvar) {
+  static const NameList none;
+  if (mesh >= request.primvar_names.size() || primvar >= request.primvar_names[mesh].size()) return none;
+  return request.primvar_names[mesh][primvar];
 }
 
 namespace {
 
 // A glTF answer indexes render meshes alone.
 bool needs_connectivity(const RefineRequest& request) {
-  return answer_format(request) == Format::json ||
-         std::ranges::any_of(request.meshes,
-                             [](const ControlMesh& mesh) { return mesh.render_meshes.empty(); });
+  return !is_gltf(answer_format(request)) || std::ranges::any_of(request.meshes, [](const ControlMesh& mesh) {
+    return mesh.render_meshes.empty();
+  });
 }
 
 }  // namespace
@@ -40,7 +62,7 @@ RefineOptions mesh_options(const RefineRequest& request) {
 
 CurveOptions curve_options(const RefineRequest& request, const ControlCurves& curves) {
   const Options& options = request.options;
-  // A glTF line has no basis: it can only be the curve itself, where refining does not lead there.
+  // A line of glTF or OBJ has no basis: it can only be the curve itself, where refining does not lead there.
   const bool limit =
       options.limit || (answer_format(request) != Format::json && !is_subdivided(curves.basis));
   return {.level = options.level, .limit = limit, .tangents = options.normals};

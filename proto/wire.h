@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,10 +20,11 @@
 #include "core/refine/refine.h"
 #include "core/refine/refined_mesh.h"
 #include "core/surfaces/patch.h"
+#include "proto/name_list.h"
 
 namespace subdivd::proto {
 
-enum class Format { json, glb, gltf };
+enum class Format { json, glb, gltf, obj, off };
 enum class Precision { single_precision, double_precision };  // "single", "double" on the wire
 enum class Faces { triangles, quads };                        // of meshes and B-spline surfaces
 enum class Weld {
@@ -54,7 +56,7 @@ struct Options {
   std::optional<BoundaryInterpolation> interpolate_boundary;  // overrides every mesh of the body
   std::optional<FaceVaryingInterpolation> face_varying_linear_interpolation;
   std::optional<Faces> faces;          // default: those there are; glTF answers have triangles always
-  std::optional<Precision> precision;  // default: double for JSON answers, single for glTF answers
+  std::optional<Precision> precision;  // default: single for glTF answers, double for others
   std::optional<Format> format;        // default: the kind that came in
 };
 
@@ -90,7 +92,7 @@ class Source;  // the original document and its buffers, for patching (proto/glt
 }
 
 struct RefineRequest {
-  Format input = Format::json;  // of OBJ and OFF, too: nobody writes them
+  Format input = Format::json;  // of OBJ and OFF, too: unless they are asked for, answers are JSON
   bool from_text = false;       // OBJ or OFF, whose numbers no JSON Pointer leads to
   Options options;
   std::vector<ControlMesh> meshes;  // checked: check() has passed
@@ -100,6 +102,9 @@ struct RefineRequest {
   // (otherwise empty: they are the input's faces).
   std::vector<std::vector<Index>> face_origins;
   std::vector<std::string> warnings;  // what is not carried over or was repaired, one sentence each
+  // For every mesh and primvar the names that its whole numbers stand for, if any; either list may be shorter.
+  std::vector<std::vector<NameList>> primvar_names;
+  NameList material_libraries;  // that an OBJ names, for an answer in its format
   // JSON only
   bool single_mesh_at_top = false, single_curve_at_top = false, single_surface_at_top = false;
   bool without_meshes = false;  // the door takes none, and its answers name none
@@ -119,10 +124,18 @@ struct RefineAnswer {
 };
 using AnyAnswer = std::variant<RefineAnswer<float>, RefineAnswer<double>>;
 
+// What an answer of this format is sent as. OFF has no type of its own: "text/plain; charset=utf-8".
+std::string_view media_type(Format format);
+inline bool is_gltf(Format format) { return format == Format::glb || format == Format::gltf; }
+inline bool is_text(Format format) { return format == Format::obj || format == Format::off; }
+
 // Effective values of what Options leaves open.
 Format answer_format(const RefineRequest& request);
 Precision answer_precision(const RefineRequest& request);
 Faces answer_faces(const RefineRequest& request);
+
+// The names that the numbers of a mesh's primvar stand for; none where they are plain numbers.
+const NameList& names_of(const RefineRequest& request, std::size_t mesh, std::size_t primvar);
 
 // What the request asks of the core, for every mesh, curve and surface of it alike.
 RefineOptions mesh_options(const RefineRequest& request);
@@ -146,7 +159,7 @@ struct Chunk {
 };
 
 struct Payload {
-  std::string content_type;   // application/json, model/gltf-binary, model/gltf+json
+  std::string content_type;   // media_type() of its format
   std::vector<Chunk> chunks;  // sent one after the other
   Count size() const {
     Count total = 0;

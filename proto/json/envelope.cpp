@@ -155,20 +155,22 @@ class StatisticsWriter {
   std::optional<Error> stopped_;
 };
 
-Json warnings(const RefineRequest& request, bool refined) {
-  Json texts = request.warnings;
-  if (refined && request.input != Format::json && answer_format(request) == Format::json)
-    texts.push_back(
-        "a JSON answer holds geometry only: nodes, materials, textures and animations of the glTF are left "
-        "out");
+std::vector<std::string> warnings(const RefineRequest& request, bool refined) {
+  std::vector<std::string> texts = request.warnings;
+  if (refined && request.input != Format::json && !is_gltf(answer_format(request)))
+    texts.emplace_back(
+        "the answer holds geometry only: nodes, materials, textures and animations of the glTF are left out");
+  if (refined && !request.material_libraries.empty() && answer_format(request) != Format::obj)
+    texts.emplace_back(
+        "the names of the OBJ's material libraries are left out; an answer of format obj has them");
   if (!(request.surfaces.empty() && request.meshes.empty()) && request.options.faces == Faces::quads &&
       answer_faces(request) != Faces::quads)
-    texts.push_back(
-        "glTF knows no quads: all faces are triangles; take format json for quads, or ngons to mark which "
+    texts.emplace_back(
+        "glTF knows no quads: all faces are triangles; take another format for quads, or ngons to mark which "
         "triangles of a mesh make one");
   if (refined && request.options.normals &&
       std::ranges::any_of(request.surfaces, [](const ControlPatch& surface) { return surface.width != 3; }))
-    texts.push_back("normals exist for surfaces of 3 numbers per point only; others get none");
+    texts.emplace_back("normals exist for surfaces of 3 numbers per point only; others get none");
   return texts;
 }
 
@@ -178,13 +180,15 @@ Result<std::string> assemble(const RefineRequest& request, Result<std::string> n
   if (!numbers) return numbers;
   std::string text =
       std::string("{\"options\":") + effective_options(request) + ",\"statistics\":" + *numbers;
-  if (const Json texts = warnings(request, refined); !texts.empty()) text += ",\"warnings\":" + dumped(texts);
+  if (const auto texts = warnings(request, refined); !texts.empty()) text += ",\"warnings\":" + dumped(texts);
   if (verification != nullptr) text += std::string(",\"verification\":") + report(*verification, &request);
   if (auto stop = budget.poll()) return *stop;
   return text + '}';
 }
 
 }  // namespace
+
+std::vector<std::string> answer_warnings(const RefineRequest& request) { return warnings(request, true); }
 
 Result<std::string> envelope(const RefineRequest& request, const AnyAnswer& answer, const Budget& budget) {
   return std::visit(

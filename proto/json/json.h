@@ -34,6 +34,8 @@ Result<std::string> envelope(const RefineRequest& request, const AnyAnswer& answ
 // The same for an answer that is a report only: options, statistics of the input, warnings, verification.
 Result<std::string> report_envelope(const RefineRequest& request, const oracle::Report& verification,
                                     const Budget& budget);
+// Its warnings, for answers that hold no envelope.
+std::vector<std::string> answer_warnings(const RefineRequest& request);
 // The verification member. With the request, faces are numbered as the caller numbered them.
 std::string report(const oracle::Report& report, const RefineRequest* request = nullptr);
 

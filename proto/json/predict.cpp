@@ -4,22 +4,22 @@
 #include "core/refine/refine.h"
 #include "core/splines/spline.h"
 #include "proto/json/json.h"
+#include "proto/json/number_text.h"
 
 namespace subdivd::proto::json {
 namespace {
 
-// The longest shortest texts: -1.17549435e-38 and -2.2250738585072014e-308, and the comma.
-constexpr Count kFloatText = 15 + 1, kDoubleText = 24 + 1;
 constexpr Count kMemberText = 512;  // names and brackets of the members of one mesh or primvar
 
 // What escaping makes of a name at worst: \u0001.
 Count name_text(const std::string& name) { return 6 * Count{name.size()} + 2; }
 
-Count digits(Count largest) { return std::to_string(largest).size(); }
-
 // Two brackets per tuple whatever the form.
 Count tuples_text(Count tuples, Count width, Count number) { return tuples * (width * number + 2) + 2; }
-Count indices_text(Count count, Count values) { return count * (digits(values) + 1) + 2; }
+Count indices_text(Count count, Count values) { return count * (digits_of(values) + 1) + 2; }
+
+// Quoted, escaped and with commas.
+Count names_text(const NameList& names) { return 6 * names.text_size() + 3 * names.size(); }
 
 Count mesh_text(const ControlMesh& mesh, const RefinedSize& size, Count number, bool normals) {
   const Count vertices = size.counts.vertices, faces = size.counts.faces, corners = size.corners;
@@ -57,7 +57,7 @@ Count on_knots_text(const ControlCurves& curves, Count points) {
   if (nurbs == nullptr) return 0;
   const Count knots = points + (Count{kMaxDegree} + 1) * curves.curve_count();
   return indices_text(curves.curve_count(), kMaxDegree + 1) +
-         (knots + (nurbs->weights.empty() ? 0 : points)) * kDoubleText;
+         (knots + (nurbs->weights.empty() ? 0 : points)) * kRealText<double>;
 }
 
 Count curves_text(const ControlCurves& curves, Index level, Count number, bool tangents) {
@@ -111,11 +111,15 @@ Count predicted_envelope_bytes(const RefineRequest& request) {
 }
 
 Count predicted_bytes(const RefineRequest& request, const std::vector<RefinedSize>& meshes) {
-  const Count number = answer_precision(request) == Precision::single_precision ? kFloatText : kDoubleText;
+  const Count number =
+      answer_precision(request) == Precision::single_precision ? kRealText<float> : kRealText<double>;
   const bool normals = request.options.normals;
   Count bytes = predicted_envelope_bytes(request) + 64;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
     bytes += mesh_text(request.meshes[i], meshes[i], number, normals);
+    if (i < request.primvar_names.size())
+      for (const NameList& names : request.primvar_names[i]) bytes += names_text(names);
+  }
   for (const ControlCurves& curves : request.curves)
     bytes += curves_text(curves, request.options.level, number, normals);
   for (const ControlPatch& surface : request.surfaces)

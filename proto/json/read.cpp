@@ -89,6 +89,7 @@ class DocumentReader {
                 "normals of the body are not used; ask for new ones with the option normals");
     out_.meshes.push_back(std::move(mesh.mesh));
     out_.mesh_forms.push_back(std::move(mesh.form));
+    out_.primvar_names.push_back(std::move(mesh.primvar_names));
   }
 
   Cursor& cursor_;

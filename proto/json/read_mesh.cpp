@@ -135,7 +135,9 @@ bool MeshReader::primvars() {
       return cursor_.fail(ErrorCode::too_large, std::string("a mesh may have at most ") +
                                                     std::to_string(kMostPrimvars) + " primvars");
     const Cursor::Step step(cursor_, std::string_view(primvar.name));
-    if (!read_primvar(cursor_, primvar, result_.form.primvars.emplace_back(ArrayForm::flat))) return false;
+    if (!read_primvar(cursor_, primvar, result_.form.primvars.emplace_back(ArrayForm::flat),
+                      result_.primvar_names.emplace_back()))
+      return false;
   }
   return !cursor_.failed();
 }

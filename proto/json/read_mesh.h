@@ -20,7 +20,8 @@ namespace subdivd::proto::json {
 struct MeshRead {
   ControlMesh mesh;
   JsonMeshForm form;
-  bool had_normals = false;  // they are not used
+  std::vector<NameList> primvar_names;  // of every primvar
+  bool had_normals = false;             // they are not used
 };
 
 struct CurvesRead {

@@ -1,17 +1,17 @@
 #include "proto/json/text_writer.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "proto/json/number_text.h"
+
 namespace subdivd::proto::json {
 namespace {
 
 constexpr std::size_t kChunkSize = std::size_t{1} << 20;
-constexpr std::size_t kLongestNumber = 32;  // of a double 24: -2.2250738585072014e-308
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void TextWriter::raw(std::string_view text) {
 template <class Number>
 void TextWriter::scalar(Number value) {
   char* const begin = room(kLongestNumber);
-  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+  used_ += static_cast<std::size_t>(print_number(begin, value) - begin);
 }
 void TextWriter::number(double value) { scalar(value); }
 void TextWriter::number(float value) { scalar(value); }
@@ -74,7 +74,7 @@ std::size_t TextWriter::array(std::span<const Number> values, std::size_t width,
     char* at = begin;
     if (i > 0) *at++ = ',';
     if (nested && in_tuple == 0) *at++ = '[';
-    at = std::to_chars(at, at + kLongestNumber, values[i]).ptr;
+    at = print_number(at, values[i]);
     if (++in_tuple == width) {
       in_tuple = 0;
       if (nested) *at++ = ']';

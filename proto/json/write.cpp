@@ -79,7 +79,8 @@ class AnswerWriter {
       text_.key("primvars");
       text_.open('{');
       for (std::size_t p = 0; p < mesh.primvars.size() && !error_; ++p)
-        write_primvar(mesh.primvars[p], p < form.primvars.size() ? form.primvars[p] : ArrayForm::nested, i);
+        write_primvar(mesh.primvars[p], p < form.primvars.size() ? form.primvars[p] : ArrayForm::nested, i,
+                      names_of(request_, i, p));
       text_.close('}');
     }
     if (left_handed) turn(mesh.normals);
@@ -94,7 +95,7 @@ class AnswerWriter {
     if (!turned) error_ = std::move(turned).error();
   }
 
-  void write_primvar(RefinedPrimvar<Real>& primvar, ArrayForm form, std::size_t mesh) {
+  void write_primvar(RefinedPrimvar<Real>& primvar, ArrayForm form, std::size_t mesh, const NameList& names) {
     text_.key(primvar.name);
     text_.open('{');
     word("interpolation", word_of(primvar.interpolation));
@@ -104,6 +105,15 @@ class AnswerWriter {
     if (!primvar.indices.empty()) {
       text_.key("indices");
       text_.indices(std::exchange(primvar.indices, {}), 1, ArrayForm::flat);
+    }
+    if (!names.empty()) {
+      text_.key("names");
+      text_.open('[');
+      for (Count k = 0; k < names.size() && !text_.stopped(); ++k) {
+        text_.separate();
+        text_.string(names[k]);
+      }
+      text_.close(']');
     }
     text_.close('}');
   }

@@ -1,11 +1,15 @@
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "proto/text/obj_file.h"
+#include "proto/text/obj_labels.h"
 #include "proto/text/request.h"
+#include "proto/text/text_cursor.h"
 
 namespace subdivd::proto::text {
 namespace {
@@ -65,7 +69,6 @@ class MeshMaker {
   MeshMaker(ObjFile file, const Pace& pace) : pace_(pace), file_(std::move(file)) {}
 
   Result<RefineRequest> make() {
-    colored_ = !file_.colors.empty() && file_.colors.size() == file_.points.size();
     Count with_faces = 0, with_lines = 0;
     for (std::size_t i = 0; i < file_.objects.size(); ++i) {
       pace_.spend(4);
@@ -78,12 +81,16 @@ class MeshMaker {
       pace_.spend(64);
       if (line_end(i) > file_.objects[i].first_line) add_curves(i);
     }
-    if (with_faces == 1)
+    if (auto begun = begin_labels(); !begun) return std::move(begun).error();
+    if (with_faces == 1 && with_lines == 0)
       add_only_mesh();
     else if (auto made = add_meshes(); !made)
       return std::move(made).error();
     add_warnings();
     RefineRequest request = make_request(std::move(meshes_), std::move(curves_), std::move(warnings_));
+    request.primvar_names = std::move(names_);
+    request.material_libraries = std::move(file_.material_libraries);
+    flatten_labels(request);
     if (file_.crease_method) request.options.crease_method = *file_.crease_method;
     return request;
   }
@@ -102,10 +109,43 @@ class MeshMaker {
     return next(i, &ObjObject::first_line_point, file_.line_points.size());
   }
 
+  // Names take no memory yet but the body's own.
+  Result<void> begin_labels() {
+    if (file_.labels[kGroup].empty() && file_.labels[kMaterial].empty()) return {};
+    auto labels = ObjLabels::make(file_, pace_);
+    if (!labels) return std::move(labels).error();
+    labels_ = *std::move(labels);
+    std::vector<ObjLabels::Range> faces;
+    for (std::size_t i = 0; i < file_.objects.size(); ++i) {
+      pace_.spend(4);
+      if (face_end(i) > file_.objects[i].first_face)
+        faces.push_back({file_.objects[i].first_face, face_end(i)});
+    }
+    constexpr Count kGrowing = 3;  // while an array that grows is moved
+    if (auto stopped = take(pace_.budget(), kGrowing * labels_->name_bytes(faces, pace_)))
+      return *std::move(stopped);
+    names_.reserve(faces.size());
+    return {};
+  }
+
+  // After all other primvars.
+  void add_labels(ControlMesh& mesh, ObjLabels::Range faces) {
+    if (labels_) labels_->add(faces, mesh, names_.emplace_back(), pace_);
+  }
+
+  // One number for each face, in a JSON answer.
+  void flatten_labels(RefineRequest& request) const {
+    for (std::size_t i = 0; i < request.primvar_names.size(); ++i)
+      for (std::size_t p = 0; p < request.primvar_names[i].size(); ++p) {
+        pace_.spend(1);
+        if (!request.primvar_names[i][p].empty()) request.mesh_forms[i].primvars[p] = ArrayForm::flat;
+      }
+  }
+
   void add_curves(std::size_t i) {
     const ObjObject& object = file_.objects[i];
     ControlCurves& curves = curves_.emplace_back();
-    curves.name = object.name;
+    curves.name = joined_line(object.name);
     const std::span all_points(file_.line_points);
     const auto used =
         all_points.subspan(object.first_line_point, line_point_end(i) - object.first_line_point);
@@ -121,7 +161,7 @@ class MeshMaker {
 
   ControlMesh& begin_mesh(std::string_view name, std::vector<Index> counts) {
     ControlMesh& mesh = meshes_.emplace_back();
-    mesh.name = name;
+    mesh.name = joined_line(name);
     bool triangles = true;
     pace_.for_each(counts.size(), [&](Count k) { triangles &= counts[k] == 3; });
     if (!triangles) mesh.face_vertex_counts = std::move(counts);
@@ -129,6 +169,14 @@ class MeshMaker {
     if (file_.face_varying) mesh.face_varying_linear_interpolation = *file_.face_varying;
     if (file_.triangle_rule) mesh.triangle_subdivision_rule = *file_.triangle_rule;
     return mesh;
+  }
+
+  // Whether all points have colours.
+  bool is_colored(const std::vector<double>& colors) {
+    Count with = 0;
+    pace_.for_each(colors.size(), [&](Count k) { with += std::isnan(colors[k]) ? 0 : 1; });
+    half_colored_ |= with != 0 && with != colors.size();
+    return with != 0 && with == colors.size();
   }
 
   // Whether all corners have texture coordinates.
@@ -142,13 +190,16 @@ class MeshMaker {
   void add_only_mesh() {
     std::size_t i = 0;
     while (face_end(i) == file_.objects[i].first_face) ++i;
+    const Count faces = file_.face_counts.size();
     ControlMesh& mesh = begin_mesh(file_.objects[i].name, std::move(file_.face_counts));
     mesh.points = std::move(file_.points);
     mesh.face_vertex_indices = std::move(file_.corner_points);
-    if (colored_) add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(file_.colors));
+    if (is_colored(file_.colors))
+      add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(file_.colors));
     if (is_textured(file_.corner_texcoords))
       add_primvar(mesh, "st", Interpolation::face_varying, 2, std::move(file_.texcoords),
                   std::move(file_.corner_texcoords));
+    add_labels(mesh, {0, faces});
     pace_.for_each(file_.creases.size(), [&](Count k) {
       const ObjCrease& crease = file_.creases[k];
       add_crease(mesh, crease.a, crease.b, crease.sharpness);
@@ -191,11 +242,15 @@ class MeshMaker {
     ControlMesh& mesh = begin_mesh(object.name, std::move(counts));
     mesh.points = points.rows(file_.points, 3);
     mesh.face_vertex_indices = points.numbered(used);
-    if (colored_) add_primvar(mesh, "displayColor", Interpolation::vertex, 3, points.rows(file_.colors, 3));
-    if (!is_textured(used_texcoords)) return;
-    texcoords.select(used_texcoords, static_cast<Index>(i));
-    add_primvar(mesh, "st", Interpolation::face_varying, 2, texcoords.rows(file_.texcoords, 2),
-                texcoords.numbered(used_texcoords));
+    if (!file_.colors.empty())
+      if (auto colors = points.rows(file_.colors, 3); is_colored(colors))
+        add_primvar(mesh, "displayColor", Interpolation::vertex, 3, std::move(colors));
+    if (is_textured(used_texcoords)) {
+      texcoords.select(used_texcoords, static_cast<Index>(i));
+      add_primvar(mesh, "st", Interpolation::face_varying, 2, texcoords.rows(file_.texcoords, 2),
+                  texcoords.numbered(used_texcoords));
+    }
+    add_labels(mesh, {object.first_face, face_end(i)});
   }
 
   // Those that stand behind this object's `o`.
@@ -230,13 +285,14 @@ class MeshMaker {
   }
 
   void add_warnings() {
-    if (file_.has_groups) warnings_.emplace_back("groups and materials of the OBJ are not kept.");
+    if (file_.has_groups)
+      warnings_.emplace_back("smoothing groups of the OBJ, and maps and shadows, are not kept.");
     if (file_.has_others)
       warnings_.emplace_back(
           "points, free-form curves and surfaces and what tells how to render are left out.");
     if (file_.has_other_tags) warnings_.emplace_back("tags of hierarchical edits are left out.");
-    if (!file_.colors.empty() && !colored_)
-      warnings_.emplace_back("colours of points are left out: not all points have one.");
+    if (half_colored_)
+      warnings_.emplace_back("colours of points are left out: not all points of the mesh have one.");
     if (half_textured_)
       warnings_.emplace_back(
           "texture coordinates of meshes that have them at some corners only are left out.");
@@ -244,8 +300,10 @@ class MeshMaker {
 
   const Pace& pace_;
   ObjFile file_;
-  bool colored_ = false, half_textured_ = false;
+  bool half_colored_ = false, half_textured_ = false;
   std::size_t crease_ = 0, corner_ = 0, hole_ = 0;
+  std::optional<ObjLabels> labels_;  // where the file has any
+  std::vector<std::vector<NameList>> names_;
   std::vector<ControlMesh> meshes_;
   std::vector<ControlCurves> curves_;
   std::vector<std::string> warnings_;

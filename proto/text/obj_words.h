@@ -8,10 +8,11 @@
 namespace subdivd::proto::text {
 
 // What is read, or may be left out because the refined mesh has its own.
-inline constexpr std::array<std::string_view, 8> kReadObjWords = {"v", "vt", "vn", "f", "l", "o", "t", "fo"};
-// Groups and materials.
-inline constexpr std::array<std::string_view, 9> kObjGroupWords = {
-    "g", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj"};
+inline constexpr std::array<std::string_view, 11> kReadObjWords = {"v", "vt", "vn", "f",      "l",     "o",
+                                                                   "t", "fo", "g",  "usemtl", "mtllib"};
+// Smoothing groups, and files that tell how things look.
+inline constexpr std::array<std::string_view, 6> kObjGroupWords = {"s",      "mg",         "usemap",
+                                                                   "maplib", "shadow_obj", "trace_obj"};
 // What is rendered in other ways, and lines of free-form curves and surfaces.
 inline constexpr std::array<std::string_view, 29> kOtherObjWords = {
     "p",     "vp",    "bevel", "c_interp", "d_interp", "lod",  "cstype", "deg", "bmat", "step",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,19 +25,25 @@ std::string number(Count n) { return std::to_string(n); }
 
 // What the lines will take, from a first look at the body.
 struct ObjCounts {
-  Count points = 0, point_words = 0, texcoords = 0, normals = 0;
+  Count points = 0, colored_points = 0, texcoords = 0, normals = 0;
   Count faces = 0, corners = 0, lines = 0, line_points = 0, objects = 1, tag_words = 0;
+  std::array<Count, kLabelKinds> labels = {};
+  Count libraries = 0, library_bytes = 0;
 
-  // Beyond the coordinates; points with too few of them are refused later.
-  Count color_words() const { return point_words - std::min(point_words, 3 * points); }
   Count bytes() const {
     constexpr Count kPoint = 3 * sizeof(double), kTexcoord = 2 * sizeof(double);
-    Count sum = points * kPoint + texcoords * kTexcoord + color_words() * sizeof(double);
+    Count sum = (colored_points > 0 ? 2 : 1) * points * kPoint + texcoords * kTexcoord;
     sum += (2 * corners + faces + line_points + 2 * lines) * sizeof(Index) + line_points * kPoint;
     // Integers, numbers and what is kept of them, in arrays that grow.
     sum += tag_words * 4 * sizeof(ObjCrease);
-    if (objects == 1) return sum;
-    // Of several meshes each has its own arrays, and no more points than corners.
+    // For every line itself, its place in an order, which name it has and where that is in a mesh, and for every
+    // face the name's number. Names are taken when it is known in how many meshes they stand.
+    for (const Count lines_of_kind : labels)
+      if (lines_of_kind > 0)
+        sum += (lines_of_kind + 1) * (sizeof(ObjLabel) + 5 * sizeof(Index)) + faces * sizeof(double);
+    sum += libraries * sizeof(Count) + library_bytes;
+    if (objects == 1 && lines == 0) return sum;
+    // Of several meshes each has its own arrays, and no more points than corners; so has one beside curves.
     sum += (2 * corners + faces) * sizeof(Index) + corners * (2 * kPoint + kTexcoord + 2 * sizeof(Index));
     sum += 2 * (points + texcoords) * sizeof(Index);
     constexpr Count kObject = 2 * (sizeof(ObjObject) + sizeof(ControlMesh) + sizeof(ControlCurves)) + 1024;
@@ -44,13 +51,7 @@ struct ObjCounts {
   }
 };
 
-Count words_of_line(TextCursor& cursor) {
-  Count words = 0;
-  while (!cursor.word().empty()) ++words;
-  return words;
-}
-
-// Empty: the cursor has failed, and so will that of the reader, at the same word.
+// What is wrong with a line the reader will say: a line too long to be read is counted all the same.
 ObjCounts count_lines(std::string_view body, const Pace& pace) {
   TextCursor cursor(body, pace, kContinuation);
   ObjCounts counts;
@@ -58,21 +59,28 @@ ObjCounts count_lines(std::string_view body, const Pace& pace) {
     const std::string_view word = cursor.word();
     if (word == "v") {
       ++counts.points;
-      counts.point_words += words_of_line(cursor);
+      if (cursor.skip_words() == 6) ++counts.colored_points;
     } else if (word == "vt") {
       ++counts.texcoords;
     } else if (word == "vn") {
       ++counts.normals;
     } else if (word == "f" || word == "fo") {
       ++counts.faces;
-      counts.corners += words_of_line(cursor);
+      counts.corners += cursor.skip_words();
     } else if (word == "l") {
       ++counts.lines;
-      counts.line_points += words_of_line(cursor);
+      counts.line_points += cursor.skip_words();
     } else if (word == "o") {
       ++counts.objects;
+      cursor.rest();
+    } else if (word == "g" || word == "usemtl") {
+      ++counts.labels[word == "g" ? kGroup : kMaterial];
+      cursor.rest();
+    } else if (word == "mtllib") {
+      ++counts.libraries;
+      counts.library_bytes += cursor.rest().size();
     } else if (word == "t") {
-      counts.tag_words += words_of_line(cursor);
+      counts.tag_words += cursor.skip_words();
     }
   }
   return counts;
@@ -91,6 +99,8 @@ class ObjReader {
     while (cursor_.next_line())
       if (!read_line(cursor_.word())) break;
     if (cursor_.failed()) return cursor_.error();
+    // Indices were compared with what was counted.
+    assert(file_.points.size() == 3 * counts_.points && file_.texcoords.size() == 2 * counts_.texcoords);
     if (file_.face_counts.empty() && file_.line_counts.empty())
       return Error{ErrorCode::missing_field,
                    "the OBJ has neither faces (f) nor lines (l): there is nothing to do"};
@@ -100,6 +110,7 @@ class ObjReader {
  private:
   void reserve() {
     file_.points.reserve(3 * counts_.points);
+    if (counts_.colored_points > 0) file_.colors.reserve(3 * counts_.points);
     file_.texcoords.reserve(2 * counts_.texcoords);
     file_.face_counts.reserve(counts_.faces);
     file_.corner_points.reserve(counts_.corners);
@@ -108,6 +119,12 @@ class ObjReader {
     file_.line_points.reserve(counts_.line_points);
     file_.objects.reserve(counts_.objects);
     file_.objects.emplace_back();
+    for (std::size_t kind = 0; kind < kLabelKinds; ++kind) {
+      if (counts_.labels[kind] == 0) continue;
+      file_.labels[kind].reserve(counts_.labels[kind] + 1);
+      file_.labels[kind].push_back({{}, 0});
+    }
+    file_.material_libraries.reserve(counts_.libraries, counts_.library_bytes);
   }
 
   // What is not read is not looked at either: the next line is.
@@ -119,6 +136,9 @@ class ObjReader {
     if (word == "l") return read_polyline();
     if (word == "o") return begin_object();
     if (word == "t") return read_obj_tag(cursor_, counts_.points, counts_.faces, file_);
+    if (word == "g") return add_label(kGroup);
+    if (word == "usemtl") return add_label(kMaterial);
+    if (word == "mtllib") return add_library();
     if (is_among(word, kObjGroupWords)) return file_.has_groups = true;
     if (is_among(word, kOtherObjWords)) return file_.has_others = true;
     return cursor_.fail(ErrorCode::malformed, in_quotes(word) + " begins no line of an OBJ");
@@ -129,7 +149,7 @@ class ObjReader {
     std::array<double, 6> numbers{};
     std::size_t count = 0;
     for (; count < 3; ++count)
-      if (!cursor_.to_number(cursor_.word(), "a coordinate", numbers[count])) return false;
+      if (!cursor_.next_number("a coordinate", numbers[count])) return false;
     for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
       if (count == numbers.size()) return wrong_point();
       if (!cursor_.to_number(word, "a weight or a colour", numbers[count++])) return false;
@@ -137,10 +157,9 @@ class ObjReader {
     if (cursor_.failed()) return false;
     if (count == 5) return wrong_point();
     file_.points.insert(file_.points.end(), numbers.begin(), numbers.begin() + 3);
-    if (count == 6) {
-      if (file_.colors.empty()) file_.colors.reserve(counts_.color_words());
-      file_.colors.insert(file_.colors.end(), numbers.begin() + 3, numbers.end());
-    }
+    if (counts_.colored_points == 0) return true;
+    if (count != 6) std::fill(numbers.begin() + 3, numbers.end(), kNoColor);
+    file_.colors.insert(file_.colors.end(), numbers.begin() + 3, numbers.end());
     return true;
   }
   bool wrong_point() {
@@ -150,7 +169,7 @@ class ObjReader {
 
   bool read_texcoord() {
     double u = 0, v = 0;
-    if (!cursor_.to_number(cursor_.word(), "a texture coordinate", u)) return false;
+    if (!cursor_.next_number("a texture coordinate", u)) return false;
     const std::string_view word = cursor_.word();
     if (!word.empty() && !cursor_.to_number(word, "a texture coordinate", v)) return false;
     if (cursor_.failed()) return false;
@@ -164,14 +183,18 @@ class ObjReader {
                Index& out) {
     std::int64_t index = 0;
     if (!cursor_.to_whole(word, what, index)) return false;
+    if (index > 0 && static_cast<Count>(index) <= total) {
+      out = static_cast<Index>(index - 1);
+      return true;
+    }
     const std::string text = std::string(what) + ' ' + std::to_string(index);
     if (index == 0) return cursor_.fail(ErrorCode::out_of_range, text + ": OBJ counts from 1");
     if (index < 0 && Count{0} - static_cast<Count>(index) > so_far)
       return cursor_.fail(ErrorCode::out_of_range,
                           text + " is before the first of the " + number(so_far) + ' ' + of + " so far");
-    if (index > 0 && static_cast<Count>(index) > total)
+    if (index > 0)
       return cursor_.fail(ErrorCode::out_of_range, text + " is past the " + number(total) + ' ' + of);
-    out = static_cast<Index>(index < 0 ? so_far + static_cast<Count>(index) : static_cast<Count>(index) - 1);
+    out = static_cast<Index>(so_far + static_cast<Count>(index));
     return true;
   }
 
@@ -224,6 +247,16 @@ class ObjReader {
                           "a line of " + number(count) + " points; it has 2 or more");
     file_.line_counts.push_back(count);
     return true;
+  }
+
+  bool add_label(LabelKind kind) {
+    file_.labels[kind].push_back({cursor_.rest(), file_.face_counts.size()});
+    return !cursor_.failed();
+  }
+
+  bool add_library() {
+    file_.material_libraries.add(joined_line(cursor_.rest()));
+    return !cursor_.failed();
   }
 
   bool begin_object() {

@@ -134,7 +134,7 @@ class OffReader {
   bool read_numbers(Count count, std::string_view what, std::vector<double>* out) {
     for (Count k = 0; k < count; ++k) {
       double value = 0;
-      if (!cursor_.to_number(cursor_.word(), what, value)) return false;
+      if (!cursor_.next_number(what, value)) return false;
       if (out != nullptr) out->push_back(value);
     }
     return true;

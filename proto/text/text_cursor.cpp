@@ -1,6 +1,7 @@
 #include "proto/text/text_cursor.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -16,8 +17,20 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kPiece = std::size_t{1} << 16;  // bytes between two looks at the clock
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-bool ends_word(char c) { return is_blank(c) || c == '\n'; }
+// What a character is to a word; a table, for there are a hundred million of them.
+enum Letter : unsigned char { kLetter, kBackslash, kBlank, kNewline };
+
+constexpr std::array<Letter, 256> kLetters = [] {
+  std::array<Letter, 256> letters{};
+  for (const char c : {' ', '\t', '\r', '\v', '\f'}) letters[static_cast<unsigned char>(c)] = kBlank;
+  letters['\n'] = kNewline;
+  letters['\\'] = kBackslash;
+  return letters;
+}();
+
+Letter letter(char c) { return kLetters[static_cast<unsigned char>(c)]; }
+bool is_blank(char c) { return letter(c) == kBlank; }
+bool ends_word(char c) { return letter(c) >= kBlank; }
 
 std::string_view without_mark(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
@@ -85,24 +98,29 @@ void TextCursor::skip_to_end_of_line() {
   }
 }
 
-// To the end of the line, over words that nobody reads.
-void TextCursor::skip_line() {
-  while (skip_blanks()) {
-    const char* begin = at_;
-    while (at_ < end_ && !ends_word(*at_) && behind_continuation() == nullptr) {
-      ++at_;
-      if (static_cast<std::size_t>(at_ - begin) < kPiece) continue;
-      pace_.spend(kPiece / 16);
-      begin = at_;
-    }
+// To the end of the word, or to `stop`, which is none.
+bool TextCursor::skip_word(const char* stop) {
+  for (; at_ < stop; ++at_) {
+    const Letter found = letter(*at_);
+    if (found == kLetter) continue;
+    if (found != kBackslash || behind_continuation() != nullptr) return true;
+  }
+  return at_ == end_;
+}
+
+Count TextCursor::skip_words() {
+  Count words = 0;
+  for (; !failed_ && skip_blanks(); ++words) {
+    while (!skip_word(at_ + std::min<std::size_t>(kPiece, bytes_left()))) pace_.spend(kPiece / 16);
     pace_.spend(1);
   }
+  return words;
 }
 
 bool TextCursor::next_line() {
   if (failed_) return false;
   if (std::exchange(begun_, true))
-    skip_line();
+    skip_words();
   else if (skip_blanks())
     return true;
   while (at_ < end_) {
@@ -117,8 +135,7 @@ bool TextCursor::next_line() {
 std::string_view TextCursor::word() {
   if (failed_ || !skip_blanks()) return {};
   const char* const begin = at_;
-  const char* const stop = begin + std::min<std::size_t>(kMaxWordBytes + 1, bytes_left());
-  while (at_ < stop && !ends_word(*at_) && behind_continuation() == nullptr) ++at_;
+  skip_word(begin + std::min<std::size_t>(kMaxWordBytes + 1, bytes_left()));
   pace_.spend(4);
   const std::string_view word(begin, static_cast<std::size_t>(at_ - begin));
   if (word.size() <= kMaxWordBytes) return word;
@@ -129,7 +146,13 @@ std::string_view TextCursor::word() {
 std::string_view TextCursor::rest() {
   if (failed_) return {};
   const char* begin = at_;
-  skip_to_end_of_line();
+  for (;;) {
+    skip_to_end_of_line();
+    const char* const mark = at_ - (at_ > begin && at_[-1] == '\r' ? 2 : 1);
+    if (!continues_ || at_ == end_ || mark < begin || *mark != '\\') break;
+    ++at_;
+    ++line_;
+  }
   const char* stop = at_;
   for (; begin < stop && is_blank(*begin); ++begin) pace_.spend(1);
   for (; stop > begin && is_blank(stop[-1]); --stop) pace_.spend(1);
@@ -137,6 +160,23 @@ std::string_view TextCursor::rest() {
   if (name.size() <= kMaxWordBytes) return name;
   fail(ErrorCode::too_large, "a name has more than " + std::to_string(kMaxWordBytes) + " characters");
   return {};
+}
+
+std::string joined_line(std::string_view rest) {
+  std::string line;
+  line.reserve(rest.size());
+  for (std::size_t at = 0; at < rest.size();) {
+    const std::size_t end = std::min(rest.find('\n', at), rest.size());
+    std::string_view part = rest.substr(at, end - at);
+    at = end + 1;
+    if (end < rest.size()) {
+      if (part.ends_with('\r')) part.remove_suffix(1);
+      part.remove_suffix(1);  // the backslash
+    }
+    line += part;
+    if (end < rest.size()) line += ' ';
+  }
+  return line;
 }
 
 Count TextCursor::count_words() const {
@@ -179,7 +219,25 @@ bool TextCursor::to_number(std::string_view word, std::string_view what, double&
   return true;
 }
 
+bool TextCursor::next_number(std::string_view what, double& out) {
+  if (failed_ || !skip_blanks()) return to_number({}, what, out);
+  const char* const stop = json::read_short(at_, end_, out);
+  if (stop == nullptr || !ends_word(*stop)) return to_number(word(), what, out);
+  at_ = stop;
+  pace_.spend(4);
+  return true;
+}
+
 bool TextCursor::to_whole(std::string_view word, std::string_view what, std::int64_t& out) {
+  constexpr std::size_t kSurelyFits = 18;  // digits in 63 bits
+  std::int64_t value = 0;
+  std::size_t digits = 0;
+  for (; digits < word.size() && digits < kSurelyFits && json::is_digit(word[digits]); ++digits)
+    value = 10 * value + (word[digits] - '0');
+  if (digits > 0 && digits == word.size()) {
+    out = value;
+    return true;
+  }
   if (word.empty())
     return fail(ErrorCode::wrong_length, "the line ends where " + std::string(what) + " must stand");
   if (!is_whole(word))

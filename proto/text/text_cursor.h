@@ -30,7 +30,12 @@ class TextCursor {
   bool next_line();
   // The next word of the line. Empty at its end and after a fault; a word longer than kMaxWordBytes is one.
   std::string_view word();
-  // What is left of the line, without blanks around it, '#' being a letter. A continued line ends there.
+  // The next word as to_number() takes it: faster, where it is a short number.
+  bool next_number(std::string_view what, double& out);
+  // Words left in the line; it is behind them then. A word may have any length.
+  Count skip_words();
+  // What is left of the line, without blanks around it, '#' being a letter; where the line is continued, with
+  // the marks of that (joined_line() takes them out).
   std::string_view rest();
   // Words left in the text, comments included.
   Count count_words() const;
@@ -53,7 +58,7 @@ class TextCursor {
   bool skip_blanks();
   const char* behind_continuation() const;  // null: the line ends as others do, or not here
   void skip_to_end_of_line();
-  void skip_line();
+  bool skip_word(const char* stop);
 
   const char* at_;
   const char* const end_;
@@ -63,6 +68,9 @@ class TextCursor {
   Count line_ = 1;
   Error error_;
 };
+
+// A rest() that may run over several lines, as one line.
+std::string joined_line(std::string_view rest);
 
 // Whether a word has nothing but digits, and a sign before them.
 bool is_whole(std::string_view word);

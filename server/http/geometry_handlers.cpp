@@ -80,11 +80,21 @@ Response denied(Grants::Denied reason, Count wanted, Count most) {
   return problem_response(Error{ErrorCode::cancelled, "the caller went away"});
 }
 
-// ?format= or the body's options over Accept over the kind that came in; false: Accept admits none.
-bool choose_format(const Request& request, proto::RefineRequest& decoded) {
-  if (decoded.options.format) return true;
-  decoded.options.format = preferred_format(request, decoded.input);
-  return decoded.options.format.has_value();
+// ?format= or the body's options over Accept over the kind that came in; none where Accept admits none.
+void choose_format(const Request& request, proto::RefineRequest& decoded) {
+  if (!decoded.options.format) decoded.options.format = preferred_format(request, decoded.input);
+}
+
+// For an answer of any format, which must be chosen before the request is made ready for it.
+Result<proto::RefineRequest> decode_negotiated(const Request& request, const proto::Limits& limits,
+                                               const Budget& budget) {
+  auto decoded = proto::read_refine(request.body, body_kind(request).value_or(proto::BodyKind::unspecified),
+                                    request.query, limits, budget);
+  if (!decoded) return decoded;
+  choose_format(request, *decoded);
+  if (auto ready = proto::make_ready(*decoded, request.query, limits, budget); !ready)
+    return std::move(ready).error();
+  return decoded;
 }
 
 Result<proto::RefineRequest> decode_any(const Request& request, const proto::Limits& limits,
@@ -157,8 +167,10 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
   Phases phases;
   auto decoded = decode(request, limits_, budget);
   if (!decoded) return std::move(decoded).error();
-  if (!choose_format(request, *decoded))
-    return not_acceptable("application/json, model/gltf-binary or model/gltf+json");
+  choose_format(request, *decoded);
+  if (!decoded->options.format)
+    return not_acceptable("application/json, model/gltf-binary, model/gltf+json or model/obj");
+  if (auto fine = proto::check_format(*decoded, request.query); !fine) return std::move(fine).error();
   phases.end("read");
   auto payload = tasks::refine(*decoded, limits_, budget, phases);
   if (!payload) return std::move(payload).error();
@@ -166,7 +178,7 @@ Result<Response> GeometryHandlers::refined(const Request& request, Decode decode
 }
 
 Response GeometryHandlers::refine(Request& request) {
-  return granted(request, [&](const Budget& budget) { return refined(request, decode_any, budget); });
+  return granted(request, [&](const Budget& budget) { return refined(request, decode_negotiated, budget); });
 }
 
 Response GeometryHandlers::verify(Request& request) {

@@ -17,18 +17,6 @@ std::string_view next_part(std::string_view& rest, char mark) {
   return trimmed(part);
 }
 
-std::string_view media_type(proto::Format format) {
-  switch (format) {
-    case proto::Format::json:
-      return "application/json";
-    case proto::Format::glb:
-      return "model/gltf-binary";
-    case proto::Format::gltf:
-      return "model/gltf+json";
-  }
-  return {};
-}
-
 // How closely a range of Accept names a type: 0 not at all, 1 by */*, 2 by its first half, 3 exactly.
 int closeness(std::string_view range, std::string_view type) {
   if (range == "*/*") return 1;
@@ -93,8 +81,9 @@ std::optional<proto::Format> preferred_format(const Request& request, proto::For
   const std::string accept = accept_of(request);
   std::optional<proto::Format> best;
   double best_quality = 0;
-  for (const proto::Format format : {came_in, proto::Format::json, proto::Format::glb, proto::Format::gltf}) {
-    const double wanted = quality_of(accept, media_type(format));
+  using enum proto::Format;  // not off: what Accept may call it, text/plain, says nothing
+  for (const proto::Format format : {came_in, json, glb, gltf, obj}) {
+    const double wanted = quality_of(accept, proto::media_type(format));
     if (wanted <= best_quality) continue;
     best = format;
     best_quality = wanted;
@@ -103,7 +92,7 @@ std::optional<proto::Format> preferred_format(const Request& request, proto::For
 }
 
 bool accepts_json(const Request& request) {
-  return quality_of(accept_of(request), media_type(proto::Format::json)) > 0;
+  return quality_of(accept_of(request), proto::media_type(proto::Format::json)) > 0;
 }
 
 }  // namespace subdivd::server

@@ -126,7 +126,7 @@ Result<std::vector<Plan>> plan_and_take(const proto::RefineRequest& request, boo
   auto predicted = proto::predict_refine(request, limits, budget);
   if (!predicted) return std::move(predicted).error();
   Count bytes = 0;
-  if (answers) bytes += predicted->answer_bytes + predicted->working_bytes;
+  if (answers) bytes += predicted->held_bytes + predicted->working_bytes;
   if (verifies) bytes += predicted->working_bytes + oracle_bytes(request);
   if (auto taken = budget.take_memory(bytes - std::min(bytes, predicted->taken_bytes)); !taken)
     return std::move(taken).error();

@@ -72,6 +72,36 @@ std::string glb_of(Index side, Content content) {
   return test::text_of(*encode_refine(request, answer_to(request)));
 }
 
+// The same mesh in lines, with 6 decimals; with all its content corners are "7/3".
+std::string obj_of(Index side, Content content) {
+  const ControlMesh mesh = shapes::big_torus(side, side, 1);
+  const bool textured = content == Content::all;
+  const Primvar st = textured ? texture(mesh, side) : Primvar{};
+  std::string body;
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    body += (k % 3 == 0 ? "v " : " ") + std::to_string(mesh.points[k]) + (k % 3 == 2 ? "\n" : "");
+  for (std::size_t k = 0; k < st.values.size(); ++k)
+    body += (k % 2 == 0 ? "vt " : " ") + std::to_string(st.values[k]) + (k % 2 == 1 ? "\n" : "");
+  for (std::size_t k = 0; k < mesh.face_vertex_indices.size(); ++k) {
+    body += (k % 3 == 0 ? "f " : " ") + std::to_string(mesh.face_vertex_indices[k] + 1);
+    if (textured) body += '/' + std::to_string(st.indices[k] + 1);
+    if (k % 3 == 2) body += '\n';
+  }
+  return body;
+}
+
+std::string off_of(Index side) {
+  const ControlMesh mesh = shapes::big_torus(side, side, 1);
+  std::string body =
+      "OFF\n" + std::to_string(mesh.point_count()) + ' ' + std::to_string(mesh.face_count()) + " 0\n";
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    body += std::to_string(mesh.points[k]) + (k % 3 == 2 ? '\n' : ' ');
+  for (std::size_t k = 0; k < mesh.face_vertex_indices.size(); ++k)
+    body +=
+        (k % 3 == 0 ? "3 " : "") + std::to_string(mesh.face_vertex_indices[k]) + (k % 3 == 2 ? '\n' : ' ');
+  return body;
+}
+
 // Every number as it is usually written: 6 decimals.
 std::string json_of(Index side) {
   const ControlMesh mesh = shapes::big_torus(side, side, 1);
@@ -94,8 +124,14 @@ std::string json_of(Index side) {
 
 void read(benchmark::State& state, Format format, Content content) {
   const auto side = static_cast<Index>(state.range(0));
-  const std::string body = format == Format::json ? json_of(side) : glb_of(side, content);
-  const BodyKind kind = format == Format::json ? BodyKind::json : BodyKind::glb;
+  const std::string body = format == Format::json  ? json_of(side)
+                           : format == Format::obj ? obj_of(side, content)
+                           : format == Format::off ? off_of(side)
+                                                   : glb_of(side, content);
+  const BodyKind kind = format == Format::json  ? BodyKind::json
+                        : format == Format::obj ? BodyKind::obj
+                        : format == Format::off ? BodyKind::off
+                                                : BodyKind::glb;
   for (auto _ : state) benchmark::DoNotOptimize(decode_refine(body, kind, {}, kRoomy));
   state.SetBytesProcessed(static_cast<std::int64_t>(body.size()) * state.iterations());
   state.counters["MB"] = static_cast<double>(body.size()) / 1e6;
@@ -131,6 +167,11 @@ void write(benchmark::State& state, Format format, Content content) {
       AnyAnswer copy = answer;  // encoding consumes it
       state.ResumeTiming();
       const Result<Payload> payload = encode_refine(request, std::move(copy));
+      // Lines are made while they are sent: both times count.
+      if (is_text(format))
+        for (const Chunk& chunk : payload->chunks)
+          while (chunk.maker && !chunk.maker->next().empty()) {
+          }
       state.PauseTiming();
       bytes += payload->size();
     }
@@ -150,10 +191,17 @@ void write(benchmark::State& state, Format format, Content content) {
 WIRE_BENCHMARK(read, json, json, positions)->Arg(100)->Arg(860);
 WIRE_BENCHMARK(read, glb, glb, positions)->Arg(100)->Arg(860);
 WIRE_BENCHMARK(read, glb_textured, glb, all)->Arg(100)->Arg(860);
+WIRE_BENCHMARK(read, obj, obj, positions)->Arg(100)->Arg(860)->Arg(1200);
+WIRE_BENCHMARK(read, obj_textured, obj, all)->Arg(100)->Arg(860);
+WIRE_BENCHMARK(read, off, off, positions)->Arg(100)->Arg(860);
 WIRE_BENCHMARK(write, json, json, positions)->Arg(25)->Arg(175);
 WIRE_BENCHMARK(write, json_textured, json, all)->Arg(25)->Arg(175);
 WIRE_BENCHMARK(write, glb, glb, positions)->Arg(25)->Arg(175);
 WIRE_BENCHMARK(write, glb_textured, glb, all)->Arg(25)->Arg(175);
+
+WIRE_BENCHMARK(write, obj, obj, positions)->Arg(25)->Arg(175);
+WIRE_BENCHMARK(write, obj_textured, obj, all)->Arg(25)->Arg(175);
+WIRE_BENCHMARK(write, off, off, positions)->Arg(25)->Arg(175);
 
 }  // namespace
 }  // namespace subdivd::proto

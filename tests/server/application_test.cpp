@@ -90,6 +90,44 @@ TEST(Application, answers_glb_when_accept_wants_it) {
   const RunningApplication server;
   EXPECT_EQ(server.refine("?level=1", "Accept: model/gltf-binary\r\n").body.substr(0, 4), "glTF");
 }
+TEST(Application, answers_obj_and_off_when_they_are_wanted) {
+  const RunningApplication server;
+  const RawResponse obj = server.refine("?level=1&format=obj"), off = server.refine("?level=1&format=off");
+  EXPECT_EQ(obj.header("content-type"), "model/obj");
+  EXPECT_EQ(obj.body.substr(0, 2), "v ");
+  EXPECT_EQ(off.header("content-type"), "text/plain; charset=utf-8");
+  EXPECT_EQ(off.body.substr(0, 12), "OFF\n10 16 0\n");
+  EXPECT_EQ(server.refine("?level=1", "Accept: model/obj\r\n").body, obj.body);
+  EXPECT_EQ(server.refine("?level=0&format=obj", {}, obj.body).body, obj.body);
+  EXPECT_EQ(server.refine("?level=1&format=off&verify=1").status, 400);
+  EXPECT_EQ(server.refine("?level=1&verify=1", "Accept: model/obj\r\n").status, 400);
+  const std::string curve = R"({"points":[[0,0],[1,1],[2,0],[3,1]]})";
+  EXPECT_EQ(ask(server.port, post("/v1/curves/refine?format=off", curve)).status, 400);
+  EXPECT_TRUE(holds(ask(server.port, post("/v1/curves/refine?format=obj&level=0", curve)), "\nl 1 2 3 4\n"));
+}
+// Made while they are sent, in several pieces.
+TEST(Application, sends_long_texts_whole) {
+  Config config = quick_config();
+  config.max_output_bytes = config.max_body_bytes = 100'000'000;
+  const RunningApplication server(config);
+  const std::string whole = server.refine("?level=7&format=obj").body;
+  EXPECT_GT(whole.size(), 2'000'000u);
+  EXPECT_EQ(whole.back(), '\n');
+  EXPECT_TRUE(server.refine("?level=0&format=obj", {}, whole).body == whole);
+}
+// The choice was made when the request had been made ready for another format: left-handed faces stayed as they were.
+TEST(Application, turns_left_handed_faces_for_what_accept_chooses) {
+  const RunningApplication server;
+  std::string left = kTetrahedron;
+  left.insert(1, R"("orientation":"leftHanded",)");
+  for (const auto& [type, format] : {std::pair("model/obj", "obj"), std::pair("model/gltf-binary", "glb")}) {
+    const std::string query = std::string("?level=0&format=") + format;
+    const RawResponse asked = server.refine(query, {}, left);
+    EXPECT_EQ(server.refine("?level=0", std::string("Accept: ") + type + "\r\n", left).body, asked.body)
+        << type;
+    EXPECT_NE(server.refine(query).body, asked.body) << type;
+  }
+}
 // Bodies once carried milliseconds, so that no two answers were equal and nothing could be cached.
 TEST(Application, answers_equal_requests_with_equal_bytes) {
   const RunningApplication server;
@@ -99,6 +137,8 @@ TEST(Application, answers_equal_requests_with_equal_bytes) {
       {"/v1/refine?level=2&verify=true", kTetrahedron},
       {"/v1/refine?level=2&format=glb", kTetrahedron},
       {"/v1/refine?level=2&format=gltf&verify=true", kTetrahedron},
+      {"/v1/refine?level=2&format=obj", kTetrahedron},
+      {"/v1/refine?level=2&format=off", kTetrahedron},
       {"/v1/verify", kTetrahedron},
       {"/v1/curves/refine", curve + "}"},
       {"/v1/curves/measure", curve + "}"},

@@ -52,6 +52,11 @@ TEST(Negotiation, prefers_what_came_in_among_equals) {
   EXPECT_EQ(format("application/json, model/gltf+json", Format::gltf), Format::gltf);
 }
 TEST(Negotiation, understands_half_wildcards) { EXPECT_EQ(format("model/*", Format::json), Format::glb); }
+TEST(Negotiation, knows_obj_and_that_plain_text_may_be_anything) {
+  EXPECT_EQ(format("model/obj"), Format::obj);
+  EXPECT_EQ(format("model/obj, application/json;q=0.5"), Format::obj);
+  EXPECT_EQ(format("text/plain"), std::nullopt);
+}
 TEST(Negotiation, lets_the_closer_range_decide) {
   EXPECT_EQ(format("*/*, model/gltf-binary;q=0"), Format::json);
   EXPECT_EQ(format("model/gltf-binary;q=0.1, */*;q=0.9"), Format::json);

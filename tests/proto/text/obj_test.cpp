@@ -192,7 +192,7 @@ TEST(obj, tags_belong_to_the_object_in_which_they_stand) {
 
 TEST(obj, what_is_not_kept_is_named) {
   EXPECT_THAT(read("mtllib a.mtl\n" + kFourPoints + "g a b\nusemtl m\ns 1\nf 1 2 3\n").warnings,
-              ElementsAre(HasSubstr("groups and materials")));
+              ElementsAre(HasSubstr("smoothing groups")));
   EXPECT_THAT(read(kFourPoints + "f 1 2 3\np 1\n").warnings, ElementsAre(HasSubstr("are left out")));
   EXPECT_THAT(read(kFourPoints + "f 1 2 3\nt vertexedit 0/0/1 set\n").warnings,
               ElementsAre(HasSubstr("tags of hierarchical edits are left out")));
