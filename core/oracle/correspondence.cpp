@@ -104,7 +104,7 @@ class FaceMatcher {
     Count visible = 0, matched = 0;
     for (Count f = 0; f < far_.base_faces.size(); ++f) {
       pace_.spend(2 * far_.rows.size(f));
-      if (far_.holes[f] != 0 || is_left_out(far_.base_faces[f])) continue;
+      if (far_.holes[f] != 0) continue;
       ++visible;
       if (match_face(f)) ++matched;
     }
@@ -113,10 +113,6 @@ class FaceMatcher {
   }
 
  private:
-  bool is_left_out(Index base_face) const {
-    return !far_.optional_faces.empty() && far_.optional_faces[base_face] != 0 &&
-           blocks_[base_face] == kNoIndex;
-  }
   bool match_face(Count f) {
     const Count begin = far_.rows.begin(f), size = far_.rows.size(f);
     const Index base = far_.base_faces[f], block = blocks_[base];

@@ -109,7 +109,6 @@ void take_topology(const Far::TopologyRefiner& refiner, Index depth, FarLevel<Re
   }
   take_faces(level, result, pace);
   place_vertices(result, pace);
-  result.optional_faces = faces_at_open_border(refiner, pace);
 
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   for (int v = 0; v < base.GetNumVertices(); ++v) {  // unreferenced points

@@ -50,14 +50,12 @@ struct FarLevel {
   Index base_points = 0;  // control points
   Buffer<Real> points;    // x y z per vertex
   Buffer<FarVertex> vertices;
-  FaceRows rows;                // corners of every face, holes included
-  Buffer<Index> faces;          // vertices, corner by corner
-  Buffer<GridPoint> corners;    // of every face corner: its place on the grid of the base face
-  Buffer<Index> base_faces;     // per face
-  Buffer<Index> base_corners;   // per face: FarGrid says when, otherwise empty
-  Buffer<unsigned char> holes;  // per face
-  // Per base face: set where Far gives what we may leave out (far_quirks.h); empty when it nowhere does.
-  std::vector<unsigned char> optional_faces;
+  FaceRows rows;                           // corners of every face, holes included
+  Buffer<Index> faces;                     // vertices, corner by corner
+  Buffer<GridPoint> corners;               // of every face corner: its place on the grid of the base face
+  Buffer<Index> base_faces;                // per face
+  Buffer<Index> base_corners;              // per face: FarGrid says when, otherwise empty
+  Buffer<unsigned char> holes;             // per face
   std::vector<FarPrimvar<Real>> primvars;  // in the order of ControlMesh::primvars
   Buffer<Real> limit_points;               // with options.limit, tangents or normals: x y z per vertex
   Buffer<Real> tangents_u, tangents_v;     // with options.tangents or normals; lengths are Far's own

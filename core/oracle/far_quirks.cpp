@@ -45,21 +45,4 @@ std::vector<unsigned char> faces_at_torn_values(const Far::TopologyRefiner& refi
   return flags;
 }
 
-std::vector<unsigned char> faces_at_open_border(const Far::TopologyRefiner& refiner, const Pace& pace) {
-  using OpenSubdiv::Sdc::Options;
-  std::vector<unsigned char> flags;
-  if (refiner.GetSchemeType() != OpenSubdiv::Sdc::SCHEME_BILINEAR ||
-      refiner.GetSchemeOptions().GetVtxBoundaryInterpolation() != Options::VTX_BOUNDARY_NONE)
-    return flags;
-  const Far::TopologyLevel& base = refiner.GetLevel(0);
-  flags.resize(static_cast<std::size_t>(base.GetNumFaces()), 0);
-  for (int face = 0; face < base.GetNumFaces(); ++face) {
-    const Far::ConstIndexArray vertices = base.GetFaceVertices(face);
-    pace.spend(static_cast<Count>(vertices.size()));
-    for (int k = 0; k < vertices.size(); ++k)
-      if (base.IsVertexBoundary(vertices[k])) flags[static_cast<std::size_t>(face)] = 1;
-  }
-  return flags;
-}
-
 }  // namespace subdivd::oracle

@@ -18,11 +18,4 @@ namespace subdivd::oracle {
 std::vector<unsigned char> faces_at_torn_values(const OpenSubdiv::Far::TopologyRefiner& refiner, int channel,
                                                 const Pace& pace);
 
-// Where interpolateBoundary is none, faces at a border have no surface, and Far makes holes of them; under
-// bilinear subdivision, whose points need no neighbours, it does not. Returns one flag per base face: set for
-// those at a border, which it gives though they may have been left out. Empty under other schemes and
-// boundaries.
-std::vector<unsigned char> faces_at_open_border(const OpenSubdiv::Far::TopologyRefiner& refiner,
-                                                const Pace& pace);
-
 }  // namespace subdivd::oracle

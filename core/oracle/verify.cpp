@@ -18,16 +18,6 @@ void remark_sharpness(const ControlMesh& mesh, MeshReport& report, const Pace& p
         "round by their order, so the tolerance of values is at least 1e-7");
 }
 
-// Whether Far gives faces that we leave out.
-template <class Real>
-bool has_faces_left_out(const FarLevel<Real>& far, const Pace& pace) {
-  for (Count f = 0; f < far.base_faces.size() && !far.optional_faces.empty(); ++f) {
-    pace.spend(1);
-    if (far.holes[f] == 0 && far.optional_faces[far.base_faces[f]] != 0) return true;
-  }
-  return false;
-}
-
 Result<void> check_scheme(const AnyScheme& scheme) {
   const std::string_view reason = beyond_opensubdiv(scheme);
   if (reason.empty()) return {};
@@ -52,10 +42,6 @@ Result<MeshReport> compare_levels(const ControlMesh& mesh, const Plan& plan, con
     const auto ours = refine<Real>(mesh, plan, step, budget);
     if (!ours) return ours.error();
     report.levels.push_back(compare(mesh, *ours, *far, pace));
-    if (level == options.level && has_faces_left_out(*far, pace))
-      report.remarks.push_back(
-          "interpolateBoundary none: the faces at the border, which are left out here, are not compared; "
-          "OpenSubdiv has them under bilinear subdivision");
   }
   remark_exceptions(report.levels, report.remarks);
   remark_sharpness(mesh, report, pace);

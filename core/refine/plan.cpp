@@ -185,12 +185,21 @@ struct Plan::Builder {
         pace);
   }
 
+  // At an open border a face has no surface where that needs faces which are not there.
+  template <class Faces>
+  std::vector<unsigned char> holes_of(const Topology<Faces>& topology) const {
+    Cage as_closed = cage;
+    if (!needs_neighbors(plan.scheme_))
+      as_closed.interpolate_boundary = BoundaryInterpolation::edge_and_corner;
+    return hole_flags(as_closed, topology, pace);
+  }
+
   // By `plain`, level after level.
   template <class Faces>
   Result<void> build(const AnyInterpolatingScheme& scheme) {
     const auto topology = whole_topology<Faces>();
     Sharpness sharpness = control_sharpness(cage, *topology, pace);
-    plan.holes_ = hole_flags(cage, *topology, pace);
+    plan.holes_ = holes_of(*topology);
     if (auto fits = check_points(refined_vertex_count(*topology, options.max_level)); !fits) return fits;
     const auto steps_of = [&](const Topology<Faces>& of, std::shared_ptr<const Lattice> lattice,
                               Sharpness of_it, bool linear, bool linear_borders, bool frames) {
@@ -218,7 +227,7 @@ struct Plan::Builder {
   Result<void> build(const AnyGridScheme& scheme) {
     const auto topology = whole_topology<Faces>();
     Sharpness sharpness = control_sharpness(cage, *topology, pace);
-    plan.holes_ = hole_flags(cage, *topology, pace);
+    plan.holes_ = holes_of(*topology);
     if constexpr (std::is_same_v<Faces, Polygons>) {
       MeshFirstStep first = first_step(scheme, options.crease_method, topology, sharpness, pace);
       const plain::Level& level = first.level;

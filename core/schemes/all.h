@@ -139,6 +139,18 @@ inline std::optional<AnyScheme> scheme_of_mesh(std::string_view name, FaceSizes 
   });
 }
 
+// Whether the surface of a face needs the faces around it. Schemes that say nothing of it do.
+inline bool needs_neighbors(const AnyScheme& scheme) {
+  return std::visit(
+      []<class S>(const S&) {
+        if constexpr (requires { S::needs_neighbors; })
+          return S::needs_neighbors;
+        else
+          return true;
+      },
+      scheme);
+}
+
 // Whether sharpness may run out with the levels (tags.h).
 inline bool takes_semi_sharp(const AnyScheme& scheme) {
   return std::visit([]<class S>(const S&) { return takes_semi_sharp<S>(); }, scheme);

@@ -17,6 +17,8 @@ struct Bilinear {
   static constexpr FaceSizes face_sizes{3, kNoIndex};
   static constexpr Index regular_valence = 4;
   static constexpr Index flat_corner_faces = 1;
+  // A face's points depend on it alone: with interpolateBoundary none nothing is missing at borders.  [Far 3.5]
+  static constexpr bool needs_neighbors = false;
 
   static std::span<const SchemeOption<Bilinear>> options() { return {}; }
   // See beyond_opensubdiv() of all.h.

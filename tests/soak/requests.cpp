@@ -79,6 +79,10 @@ void add_assets(std::vector<Request>& list, const std::string& sources) {
     add(list, "polygons, level " + std::to_string(level), 3,
         post("/v1/refine?normals=true&limit=true&level=" + std::to_string(level), house));
   add(list, "polygons to GLB", 3, post("/v1/refine?level=3&format=glb&normals=true", house));
+  add(list, "polygons to GLB, marked", 1, post("/v1/refine?level=1&format=glb&ngons=true", house));
+  add(list, "polygons to OBJ", 2, post("/v1/refine?level=3&format=obj&normals=true", house));
+  add(list, "polygons to OFF", 1, post("/v1/refine?level=2&format=off&faces=triangles", house));
+  add(list, "verify polygons", 1, post("/v1/verify?level=2&limit=true", house));
   add(list, "GLB by Catmull-Clark", 2,
       post("/v1/refine?level=2&subdivisionScheme=catmullClark&normals=true", glb, kGlb));
   add(list, "triangles by Catmull-Clark", 2,

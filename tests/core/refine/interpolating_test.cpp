@@ -59,7 +59,7 @@ std::vector<Case> cases() {
     result.push_back({name + ' ' + scheme, with_values(std::move(mesh), result.size() + 1), on_grids});
   };
   for (const auto& [name, mesh] : shapes::all_shapes()) add(name, mesh, "butterfly", "loop");
-  for (const auto& [name, mesh] : shapes::polygon_shapes()) add(name, mesh, "kobbelt", "bilinear");
+  for (const auto& [name, mesh] : shapes::polygon_shapes()) add(name, mesh, "kobbelt", "catmullClark");
   return result;
 }
 
