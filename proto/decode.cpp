@@ -118,8 +118,10 @@ Result<Count> working_bytes(const RefineRequest& request, const std::vector<Plan
     if (!size) return blame_input(request, size.error(), "meshes", i);
     bytes += size->bytes + size->working_bytes;
     if (cuts_faces(request)) {
-      *size = cut_size(*std::move(size));
-      bytes += cutting_bytes(request.meshes[i], *size, sizeof(Real));
+      RefinedSize cut = cut_size(*std::move(size));
+      bytes += cutting_bytes(request.meshes[i], cut, sizeof(Real));
+      sizes.push_back(std::move(cut));
+      continue;
     }
     sizes.push_back(std::move(*size));
   }
