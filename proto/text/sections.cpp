@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <utility>
@@ -23,8 +22,7 @@ constexpr Count kKept = Count{1} << 20;     // a text of no more is kept rather 
 constexpr std::ptrdiff_t kCornerRoom = 512, kRoom = 2 * (kMaxWordBytes + 16) + 2 * kCornerRoom;
 
 char* put(char* at, std::string_view text) {
-  std::memcpy(at, text.data(), text.size());
-  return at + text.size();
+  return std::copy(text.begin(), text.end(), at);
 }
 
 // "a/b/c", "a//c", "a/b" or "a".
