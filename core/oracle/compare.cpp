@@ -244,7 +244,8 @@ Deviation compare_primvar(const Sides<Real>& sides, std::size_t p, bool limit) {
                                 ? limit_objection(sides.far.vertices[far_vertex], sides.far.scheme)
                                 : nullptr;
     if (limit && sides.far.scheme == FarScheme::bilinear &&
-        !std::equal(&far.limit_values[f * width], &far.limit_values[(f + 1) * width], &far.values[f * width]))
+        !std::ranges::equal(far_values.subspan(f * width, width),
+                            std::span(far.values).subspan(f * width, width)))
       objection = kMovedSeams;
     if (!far.torn_faces.empty() && far.torn_faces[site.place.face] != 0) objection = kTorn;
     if (objection != nullptr) return meter.except(objection);
