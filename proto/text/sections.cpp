@@ -21,9 +21,7 @@ constexpr Count kKept = Count{1} << 20;     // a text of no more is kept rather 
 // the names of a face and its first corner, for what begins a line is not written twice.
 constexpr std::ptrdiff_t kCornerRoom = 512, kRoom = 2 * (kMaxWordBytes + 16) + 2 * kCornerRoom;
 
-char* put(char* at, std::string_view text) {
-  return std::copy(text.begin(), text.end(), at);
-}
+char* put(char* at, std::string_view text) { return std::copy(text.begin(), text.end(), at); }
 
 // "a/b/c", "a//c", "a/b" or "a".
 struct CornerForm {
