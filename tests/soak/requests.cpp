@@ -88,7 +88,7 @@ void add_assets(std::vector<Request>& list, const std::string& sources) {
   add(list, "triangles by Catmull-Clark", 2,
       post("/v1/refine?level=2&subdivisionScheme=catmullClark", sheet_json(30, 30)));
   add(list, "butterfly", 1,
-      post("/v1/refine?level=2&subdivisionScheme=butterfly&normals=true&format=glb", sheet_json(20, 20)));
+      post("/v1/refine?level=2&subdivisionScheme=butterfly&normals=true&format=glb", sheet_json(8, 8)));
   add(list, "bilinear", 1, post("/v1/refine?level=3&subdivisionScheme=bilinear", sheet_json(10, 10)));
   add(list, "verify", 2, post("/v1/verify?level=3", file_text(sources + "/tests/shapes/cube.json")));
   add(list, "verify", 2, post("/v1/verify?level=2&limit=true", sheet_json(8, 8)));
