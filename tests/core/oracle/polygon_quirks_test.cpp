@@ -9,28 +9,11 @@
 #include <vector>
 
 #include "core/oracle/verify.h"
+#include "tests/core/oracle/far_vectors.h"
 #include "tests/core/oracle/polygon_fixtures.h"
 
 namespace subdivd::oracle::testing {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector at(std::span<const double> values, std::size_t v) {
-  return {values[3 * v], values[3 * v + 1], values[3 * v + 2]};
-}
-
-double distance(const Vector& a, const Vector& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-Vector normal_of(const FarLevel<double>& far, std::size_t v) {
-  const Vector a = at(far.tangents_u, v), b = at(far.tangents_v, v);
-  Vector n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  const double length = std::hypot(n[0], n[1], n[2]);
-  for (double& x : n) x /= length;
-  return n;
-}
 
 // Far's vertex at that place.
 std::size_t vertex_at(const FarLevel<double>& far, const Provenance& place) {
